@@ -32,9 +32,9 @@ std::string three_cells(const Vector3d& v) { return text_of(v).substr(1, text_of
 TEST_CASE("agents: the clip's character, turned, sized, later and at its place, with all that it is asked for")
 {
     const CrowdStage stage(100, 25);
-    spill(stage.folder / "agents.csv",
-          "name,x,z,y,heading_deg,size,start\n# turned\nAnna,30,-70,2,90,1,3\n\"Ben B\",0,0,0,-150,1,0\n"
-          "Cleo,5,2,1,0,0.9,10\n");
+    const std::string ben = "Ben Bartholomew Featherstonehaugh of the north gate";
+    spill(stage.folder / "agents.csv", "name,x,z,y,heading_deg,size,start\n# turned\nAnna,30,-70,2,90,1,3\n\"" + ben +
+                                           "\",0,0,0,-150,1,0\nCleo,5,2,1,0,0.9,10\n");
     const std::string crowd = "[crowd]\nlimbs = \"all\"\n", with = "agents = \"agents.csv\"\n",
                       asked = "[limb.arms]\ntarget.offset = [0.5, 1, 2]\n";
     const std::vector<PoseLine> own = stage.rows(crowd + asked, "left_arm"),
@@ -44,7 +44,7 @@ TEST_CASE("agents: the clip's character, turned, sized, later and at its place, 
         double heading_deg, size;
         std::size_t start;
         Vector3d place;
-    } wanted[] = {{"Anna", 90, 1, 3, {30, 2, -70}}, {"Ben B", -150, 1, 0, {0, 0, 0}}, {"Cleo", 0, 0.9, 10, {5, 1, 2}}};
+    } wanted[] = {{"Anna", 90, 1, 3, {30, 2, -70}}, {ben, -150, 1, 0, {0, 0, 0}}, {"Cleo", 0, 0.9, 10, {5, 1, 2}}};
     const std::size_t frames = stage.clip.lines.size();
     REQUIRE(agents.size() == 3 * frames);
     for (const PoseLine& line : agents) {

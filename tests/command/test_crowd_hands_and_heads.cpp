@@ -211,8 +211,8 @@ TEST_CASE("in a mirror each wrist is at the side of its own arm")
         const std::vector<Limb> arms = require_limbs(search, "clip.bvh");
         const std::vector<formats::JointPose> pose = rest_pose(clip);
         REQUIRE(why_not_carry(clip, arms).empty());
-        const CarryPlan plan =
-            plan_carry(clip, arms, {1, Vector3d(8, 4, 4), Vector3d(0, -5, 7), 1}, Vector3d::UnitY(), stage.face());
+        const CarryPlan plan = plan_carry(clip, arms, {0, 1, {{Vector3d(8, 4, 4)}}, {{Vector3d(0, -5, 7)}}}, 1,
+                                          Vector3d::UnitY(), stage.face());
         for (const Limb& arm : arms) {
             const auto away = [&](const Limb& from) {
                 return (carrying_wrist(plan, arm.name, pose) - pose[static_cast<std::size_t>(from.upper())].position)

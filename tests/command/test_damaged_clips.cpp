@@ -15,7 +15,6 @@
 
 #include "tools/crowd/demo_clip.h"
 #include "tools/formats/limb_name.h"
-#include "tools/retarget/eased.h"
 #include "tools/retarget/joint_pairs.h"
 #include "tools/retarget/retarget.h"
 #include "tools/retarget/verdict.h"
@@ -279,7 +278,10 @@ std::string lines_of(const std::vector<std::string>& list)
     for (const std::string& each : list) all += each + "\n";
     return all;
 }
-std::string doubts(const Clip& clip) { return lines_of(tools::clip_doubts(clip, parts_of_demo(clip))); }
+std::string doubts(const Clip& clip)
+{
+    return lines_of(tools::texts_of(tools::clip_doubts({clip, parts_of_demo(clip)})));
+}
 
 struct Damage {
     const char* name;
@@ -365,8 +367,7 @@ TEST_CASE("doubts: what nobody is built or bends like is garbage, and all else i
         Clip clip = tools::demo_clip(kFrames);
         damage.make(clip);
         const std::vector<tools::BodyPart> parts = parts_of_demo(clip);
-        if (std::ranges::any_of(clip_doubts(tools::BodyFrames(clip, parts), parts).doubts,
-                                &tools::ClipDoubt::is_garbage))
+        if (std::ranges::any_of(tools::clip_doubts({clip, parts}), &tools::ClipDoubt::is_garbage))
             garbage.insert(damage.name);
     }
     CHECK(garbage ==

@@ -14,8 +14,8 @@
 #include "tests/made_body.h"
 #include "tests/test_data.h"
 #include "tools/rig/joint_names.h"
-#include "tools/rig/limb_joints.h"
 #include "tools/rig/limbs.h"
+#include "tools/rig/name_search.h"
 #include "tools/rig/name_table.h"
 
 using namespace swivel;

@@ -81,9 +81,8 @@ TEST_CASE("statistics: errors are counted from the targets as they were asked fo
         choice.bends.push_back({{swivel::formats::LimbKind::arm, side}, Eigen::Vector3d::UnitZ(), "test", ""});
     const std::vector<Limb> limbs =
         require_limbs(bind_limbs(clip, choose_joints(clip, "test", choice), choice), "test");
-    CrowdPlan plan;
+    CrowdPlan plan = plan_crowd(nullptr, clip, limbs);
     plan.characters = 30;
-    plan.limbs.resize(limbs.size());
     ClipCrowd crowd(clip, limbs, plan);
     swivel::formats::Target given;
     given.frame = 1;

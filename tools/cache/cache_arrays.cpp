@@ -10,15 +10,6 @@ namespace swivel::tools {
 
 namespace {
 
-struct GivenArray {
-    const char *name, *type;
-    std::uint64_t count;
-    const char* meaning;
-};
-constexpr GivenArray kGiven[] = {{"target", "<f8", 3, "target of one's own, in the world; NaN: the clip's"},
-                                 {"pole", "<f8", 3, "pole of one's own, in the world; NaN: the clip's"},
-                                 {"hand", "<f4", 4, "world rotation of the hand of one's own, x y z w"}};
-
 // Frames, limbs and characters of the whole crowd, and of one chunk.
 ZarrArray by_character(const CachedCrowd& crowd, std::string name, std::string type, std::string meaning,
                        const std::vector<std::uint64_t>& parts, const std::vector<std::string>& part_dimensions)
@@ -97,9 +88,13 @@ CacheArrays::CacheArrays(const CachedCrowd& crowd)
                                {crowd.ground->grid.rows, crowd.ground->grid.columns},
                                "heights of the ground, as shares of its size along Y"));
     for (const Member& member : kCharacterMembers) characters.push_back(character_array(crowd, member));
-    if (crowd.has_given)
-        for (const auto& [name, type, count, meaning] : kGiven)
-            given.push_back(by_character(crowd, fmt::format("given/{}", name), type, meaning, {count}, {"part"}));
+    if (!crowd.has_given) return;
+    const auto add_given = [&](const char* name, const char* type, const char* meaning, std::uint64_t count) {
+        given.push_back(by_character(crowd, name, type, meaning, {count}, {"part"}));
+    };
+    add_given("given/target", "<f8", "target of one's own, in the world; NaN: the clip's", 3);
+    add_given("given/pole", "<f8", "pole of one's own, in the world; NaN: the clip's", 3);
+    add_given("given/hand", "<f4", "world rotation of the hand of one's own, x y z w", 4);
 }
 
 std::vector<ZarrArray> CacheArrays::made() const

@@ -100,7 +100,6 @@ std::uint32_t whole(const Json& json, const char* name, std::uint32_t min, std::
             fmt::format("{} is {}, not a number from {} to {}", name, formats::printable(value.dump()), min, max));
     return static_cast<std::uint32_t>(number);
 }
-bool yes_or_no(const Json& json, const char* name) { return whole(json, name, 0, 1) != 0; }
 template <class Enum>
 Enum one_of(const Json& json, const char* name, Enum last)
 {
@@ -147,20 +146,6 @@ void take(const Json& json, const std::tuple<Members...>& members, Struct& to)
     std::apply([&](const Members&... each) { (take_one(each), ...); }, members);
 }
 
-formats::LimbRest rest_of(const Json& json)
-{
-    formats::LimbRest rest;
-    take(json, kRest, rest);
-    return rest;
-}
-
-goal_plan goals_of(const Json& json)
-{
-    goal_plan goals{};
-    take(json, kGoals, goals);
-    return goals;
-}
-
 // A field of the solver, which says by itself what it takes.
 swivel_field field_of(const Json& json)
 {
@@ -199,13 +184,14 @@ swivel_region region_of(const Json& json)
     return region;
 }
 
+bool is_length(double length) { return length > 0 && length <= kMaxLength; }
+bool is_place(double place) { return std::fabs(place) <= kMaxLength; }
+
 // Without its heights.
 Ground ground_of(const Json& json)
 {
     Ground ground{};
     take(json, kGround, ground.grid);
-    const auto is_length = [](double length) { return length > 0 && length <= kMaxLength; };
-    const auto is_place = [](double place) { return std::fabs(place) <= kMaxLength; };
     if (!std::ranges::all_of(ground.grid.size, is_length) || !std::ranges::all_of(ground.grid.place, is_place))
         throw std::invalid_argument("a ground's size or place is out of range");
     if (std::min(ground.grid.columns, ground.grid.rows) < 2 && ground.grid.columns + ground.grid.rows > 0)
@@ -247,9 +233,9 @@ CachedLimb limb_of(const Json& json)
     setup.shoulder_order = one_of(json, "shoulder_order", SWIVEL_ZYX);
     setup.wrist_order = one_of(json, "wrist_order", SWIVEL_ZYX);
     setup.twist_bone_count = whole(json, "twist_bones", 0, SWIVEL_MAX_TWIST_BONES);
-    setup.mirrored = yes_or_no(json, "mirrored");
-    setup.rest = rest_of(json.at("chain"));
-    setup.goals = goals_of(json.at("goals"));
+    setup.mirrored = whole(json, "mirrored", 0, 1) != 0;
+    take(json.at("chain"), kRest, setup.rest);
+    take(json.at("goals"), kGoals, setup.goals);
     for (const Json& each : json.at("fixed")) {
         FixedField& fixed = setup.fields.emplace_back();
         fixed.field = field_of(each);
@@ -271,8 +257,7 @@ std::array<double, 4> box_of(const Json& json)
 {
     double box[4];
     get(json, box);
-    const auto is_length = [](double length) { return length > 0 && length <= kMaxLength; };
-    if (!std::ranges::all_of(std::span(box).first(3), is_length) || !(std::fabs(box[3]) <= kMaxLength))
+    if (!std::ranges::all_of(std::span(box).first(3), is_length) || !is_place(box[3]))
         throw std::invalid_argument("a box's size or place is out of range");
     return std::to_array(box);
 }
@@ -292,8 +277,8 @@ CachedLook look_of(const Json& json)
 {
     CachedLook look;
     LimbSetup& setup = look.setup;
-    setup.rest = rest_of(json.at("chain"));
-    setup.goals = goals_of(json.at("goals"));
+    take(json.at("chain"), kRest, setup.rest);
+    take(json.at("goals"), kGoals, setup.goals);
     setup.goals.is_look = 1;
     if (setup.goals.holds > 0) throw std::invalid_argument("a look holds a hand");
     swivel_look_def& how = setup.look.emplace(swivel_default_look_def());

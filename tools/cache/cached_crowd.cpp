@@ -5,6 +5,37 @@
 
 namespace swivel::tools {
 
+namespace {
+
+// What a crowd has beside features: characters that look, and twist bones.
+constexpr swivel_features kLook = UINT64_C(1) << 63, kTwistBones = UINT64_C(1) << 62;
+
+struct FieldRow {
+    swivel_field field;
+    swivel_features any_of;  // one of these must be there; 0: the field always is
+    const char* meaning;
+    std::uint32_t count = 1;  // numbers of a limb, or of a twist bone
+    const char* dimension = "";
+    bool is_state_alone = false;
+};
+constexpr FieldRow kFields[] = {
+    {SWIVEL_SHOULDER, 0, "local rotation of the shoulder joint, x y z w", 4, "xyzw"},
+    {SWIVEL_ELBOW, 0, "local rotation of the elbow joint, x y z w", 4, "xyzw"},
+    {SWIVEL_WRIST, SWIVEL_WITH_HAND | kLook, "local rotation of the wrist joint, x y z w", 4, "xyzw"},
+    {SWIVEL_FLAGS, 0, "bits of swivel_flag"},
+    {SWIVEL_STRETCH, SWIVEL_WITH_REACH, "factor of both bone lengths"},
+    {SWIVEL_NORMAL, SWIVEL_WITH_MAX_SWIVEL, "unit normal of the swivel plane, arm frame", 3, "xyz"},
+    {SWIVEL_TWIST_BONES, kTwistBones,
+     "by how much each twist bone turns from where the clip would have it, about the forearm, x y z w", 4, "xyzw"},
+    {SWIVEL_CLAVICLE_ROTATION, SWIVEL_WITH_CLAVICLE, "turn of the shoulder's parent joint, x y z w", 4, "xyzw"},
+    {SWIVEL_PLANT, SWIVEL_WITH_PLANT, "how a foot stands, as SWIVEL_PLANT", 11, "part", true},
+    {SWIVEL_SHIFT, SWIVEL_WITH_PELVIS_FIT,
+     "the body's, of each limb: as SWIVEL_SHIFT, then how much higher it is than its place says", 4, "part"},
+    {SWIVEL_LIFT, SWIVEL_WITH_GROUND, "how the ground lifts and turns a foot, as SWIVEL_LIFT", 9, "part", true},
+    {SWIVEL_LOOK_TURNS, kLook, "how a look has turned its joints, as SWIVEL_LOOK_TURNS", 25, "part", true}};
+
+}  // namespace
+
 bool CachedCrowd::carries_state() const
 {
     swivel_features carrying = SWIVEL_WITH_PELVIS_FIT;  // its body's shift
@@ -32,13 +63,12 @@ std::vector<std::span<const goal_source>> sources_of(const CachedCrowd& crowd)
 
 ChunkShape chunk_shape(std::uint32_t frames, std::uint32_t characters, std::size_t limb_count, bool carries_state)
 {
-    constexpr std::uint32_t kLimbsInChunk = 65'536, kLimbsInColumn = 4'096;
-    const std::uint64_t blocks = (std::uint64_t{characters} + SWIVEL_LANES - 1) / SWIVEL_LANES;
-    const auto max = static_cast<std::uint32_t>(kLimbsInChunk / limb_count);
-    const auto max_wide = carries_state ? static_cast<std::uint32_t>(kLimbsInColumn / limb_count) : max / 4;
-    const auto of_chunk =
-        static_cast<std::uint32_t>(std::min<std::uint64_t>(blocks, max_wide / SWIVEL_LANES)) * SWIVEL_LANES;
-    return {std::clamp(max / of_chunk, 1u, frames), of_chunk};
+    constexpr std::uint32_t kLimbsInChunk = 65'536;
+    const std::uint32_t limbs_in_column = carries_state ? 4'096 : kLimbsInChunk / 4;
+    const auto limbs = static_cast<std::uint32_t>(limb_count);
+    const std::uint32_t blocks = characters / SWIVEL_LANES + (characters % SWIVEL_LANES > 0);
+    const std::uint32_t of_chunk = std::min(blocks, limbs_in_column / limbs / SWIVEL_LANES) * SWIVEL_LANES;
+    return {std::clamp(kLimbsInChunk / limbs / of_chunk, 1u, frames), of_chunk};
 }
 
 std::size_t ResultField::count() const
@@ -50,53 +80,23 @@ std::size_t ResultField::count() const
 
 std::vector<ResultField> result_fields(const CachedCrowd& crowd)
 {
-    swivel_features features = 0;
+    swivel_features features = crowd.look ? kLook : 0;
     std::uint32_t twist_bones = 0;
     for (const LimbSetup& limb : setups_of(crowd)) {
         features |= limb.features;
         twist_bones = std::max(twist_bones, limb.twist_bone_count);
     }
-    const auto has = [&](swivel_features feature) { return (features & feature) != 0; };
-    std::vector<ResultField> fields{
-        {SWIVEL_SHOULDER, "shoulder", "local rotation of the shoulder joint, x y z w", {4}, {"xyzw"}},
-        {SWIVEL_ELBOW, "elbow", "local rotation of the elbow joint, x y z w", {4}, {"xyzw"}}};
-    if (has(SWIVEL_WITH_HAND) || crowd.look)
-        fields.push_back({SWIVEL_WRIST, "wrist", "local rotation of the wrist joint, x y z w", {4}, {"xyzw"}});
-    fields.push_back({SWIVEL_FLAGS, "flags", "bits of swivel_flag", {}, {}});
-    if (has(SWIVEL_WITH_REACH)) fields.push_back({SWIVEL_STRETCH, "stretch", "factor of both bone lengths", {}, {}});
-    if (has(describe(SWIVEL_NORMAL).needs))
-        fields.push_back({SWIVEL_NORMAL, "normal", "unit normal of the swivel plane, arm frame", {3}, {"xyz"}});
-    if (twist_bones > 0)
-        fields.push_back(
-            {SWIVEL_TWIST_BONES,
-             "twist_bones",
-             "by how much each twist bone turns from where the clip would have it, about the forearm, x y z w",
-             {twist_bones, 4},
-             {"twist_bone", "xyzw"}});
-    if (has(SWIVEL_WITH_CLAVICLE))
-        fields.push_back({SWIVEL_CLAVICLE_ROTATION,
-                          "clavicle_rotation",
-                          "turn of the shoulder's parent joint, x y z w",
-                          {4},
-                          {"xyzw"}});
-    if (has(SWIVEL_WITH_PLANT))
-        fields.push_back({SWIVEL_PLANT, "plant", "how a foot stands, as SWIVEL_PLANT", {11}, {"part"}, true});
-    if (has(SWIVEL_WITH_PELVIS_FIT))
-        fields.push_back({SWIVEL_SHIFT,
-                          "shift",
-                          "the body's, of each limb: as SWIVEL_SHIFT, then how much higher it is than its place says",
-                          {4},
-                          {"part"}});
-    if (has(SWIVEL_WITH_GROUND))
-        fields.push_back(
-            {SWIVEL_LIFT, "lift", "how the ground lifts and turns a foot, as SWIVEL_LIFT", {9}, {"part"}, true});
-    if (crowd.look)
-        fields.push_back({SWIVEL_LOOK_TURNS,
-                          "look_turns",
-                          "how a look has turned its joints, as SWIVEL_LOOK_TURNS",
-                          {25},
-                          {"part"},
-                          true});
+    if (twist_bones > 0) features |= kTwistBones;
+    std::vector<ResultField> fields;
+    for (const FieldRow& row : kFields) {
+        if (row.any_of != 0 && (features & row.any_of) == 0) continue;
+        fields.push_back({row.field, describe(row.field).name, row.meaning, {}, {}, row.is_state_alone});
+        if (row.field == SWIVEL_TWIST_BONES)
+            fields.back().parts = {twist_bones}, fields.back().part_dimensions = {"twist_bone"};
+        if (row.count == 1) continue;
+        fields.back().parts.push_back(row.count);
+        fields.back().part_dimensions.emplace_back(row.dimension);
+    }
     return fields;
 }
 

@@ -88,8 +88,8 @@ struct CachedCrowd {
 std::vector<LimbSetup> setups_of(const CachedCrowd& crowd);
 std::vector<std::span<const goal_source>> sources_of(const CachedCrowd& crowd);
 
-// A chunk of about 64,000 limbs, whatever the memory and the number of machines: characters first, then frames. Where
-// state is carried, one machine solves all frames of a column, so columns are small: many machines then have some.
+// A chunk of about 64,000 limbs, whatever the memory and the number of machines. A column has up to 16,384 limbs. Where
+// state is carried, one machine solves all frames of a column, so it has up to 4,096, and more machines share a crowd.
 ChunkShape chunk_shape(std::uint32_t frames, std::uint32_t characters, std::size_t limb_count, bool carries_state);
 
 // One field of the results, as an array has it.

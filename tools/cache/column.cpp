@@ -23,12 +23,6 @@ std::size_t joint_of(swivel_field field)
                                          : 0;
 }
 
-bool is_carried(swivel_field field)
-{
-    return field == SWIVEL_NORMAL || field == SWIVEL_PLANT || field == SWIVEL_LIFT || field == SWIVEL_SHIFT ||
-           field == SWIVEL_LOOK_TURNS;
-}
-
 }  // namespace
 
 Column::Column(const CachedCrowd& crowd, std::uint32_t index, std::vector<goal_character> characters)
@@ -75,7 +69,7 @@ void Column::restore(const Results& state)
     for (std::size_t n = 0; n < fields_.size(); ++n)
         for (std::size_t limb = 0; limb < setups_.size(); ++limb) {
             const swivel_field field = fields_[n].field;
-            if (!is_carried(field) || !crowd_.has(limb, field)) continue;
+            if (describe(field).kind != SWIVEL_FIELD_CARRIED || !crowd_.has(limb, field)) continue;
             const std::size_t count = fields_[n].count(), at = cached_.place(0, limb, 0) * count;
             crowd_.restore(limb, field, std::span(state[n]).subspan(at, crowd_.character_count() * count));
         }

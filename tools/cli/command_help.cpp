@@ -21,14 +21,14 @@ std::vector<std::string> command_names(const CLI::App& app)
     return names;
 }
 
-// The subcommand, once there is one, or the subcommand of that.
+// The innermost subcommand that is given; the command itself where none is.
 const CLI::App& used_command(const CLI::App& app)
 {
     const std::vector<CLI::App*> used = app.get_subcommands();
     return used.empty() ? app : used_command(*used.front());
 }
 
-// All words up to the subcommand's own.
+// A command's name after the names of those above it: "swivel rig".
 std::string words_of(const CLI::App& command)
 {
     return command.get_parent() ? words_of(*command.get_parent()) + " " + command.get_name() : command.get_name();

@@ -13,6 +13,15 @@
 
 namespace swivel::tools {
 
+namespace {
+
+OptionValue not_empty(const char* word, const std::string& problem)
+{
+    return {word, [problem](const std::string& text) { return text.empty() ? problem : ""; }};
+}
+
+}  // namespace
+
 CLI::Option* takes(CLI::Option* option, const OptionValue& value)
 {
     return option->type_name(value.word)->check(CLI::Validator(value.check, ""));
@@ -54,21 +63,9 @@ OptionValue numbers(std::size_t count, double min)
     return {"NUMBERS", check};
 }
 
-OptionValue file_name()
-{
-    const auto check = [](const std::string& text) -> std::string {
-        return text.empty() ? "the file name is empty; give one, or leave the option out" : "";
-    };
-    return {"FILE", check};
-}
+OptionValue file_name() { return not_empty("FILE", "the file name is empty; give one, or leave the option out"); }
 
-OptionValue name(const std::string& advice)
-{
-    const auto check = [advice](const std::string& text) -> std::string {
-        return text.empty() ? "the name is empty; " + advice : "";
-    };
-    return {"NAME", check};
-}
+OptionValue name(const std::string& advice) { return not_empty("NAME", "the name is empty; " + advice); }
 
 OptionValue one_of(const std::vector<std::string>& words)
 {

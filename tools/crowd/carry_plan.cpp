@@ -44,8 +44,8 @@ std::string why_not_carry(const formats::Clip& clip, std::span<const Limb> limbs
     return {};
 }
 
-CarryPlan plan_carry(const formats::Clip& clip, std::span<const Limb> limbs, const AskedBox& asked,
-                     const Vector3d& up_w, const Vector3d& faces_w)
+CarryPlan plan_carry(const formats::Clip& clip, std::span<const Limb> limbs, const formats::CarrySettings& asked,
+                     double shortest, const Vector3d& up_w, const Vector3d& faces_w)
 {
     std::vector<Limb> arms = arms_of(limbs);
     if (arms[1].name < arms[0].name) std::swap(arms[0], arms[1]);  // the left one first
@@ -53,14 +53,14 @@ CarryPlan plan_carry(const formats::Clip& clip, std::span<const Limb> limbs, con
     const auto at = [&](int joint) { return rest[static_cast<std::size_t>(joint)]; };
     double length = 0;
     for (const Limb& arm : arms) length += 0.5 * (double{arm.bound.lengths[0]} + double{arm.bound.lengths[1]});
-    length *= asked.shortest;
+    length *= shortest;
     Eigen::Matrix3d axes_w;
     axes_w << up_w.cross(faces_w), up_w, faces_w;
     const Vector3d left = at(arms[0].upper()).position, right = at(arms[1].upper()).position;
     CarryPlan plan;
     plan.share = asked.share;
-    plan.size = asked.size.value_or(length * Vector3d(kSize));
-    plan.place = asked.place.value_or(length * Vector3d(kPlace));
+    plan.size = asked.size ? asked.size->value : Vector3d(length * Vector3d(kSize));
+    plan.place = asked.place ? asked.place->value : Vector3d(length * Vector3d(kPlace));
     plan.palm = length * Vector3d(kPalm);
     plan.left = axes_w.col(0).dot(left - right) < 0 ? -1 : 1;
     plan.chest = chest_of(clip, arms);

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// A box in both hands: its place at the chest, and the wrists' places at the box. Knows clips alone.
+// A box in both hands: its place at the chest, and the wrists' places at the box. Knows clips, and what a crowd
+// file asks for.
 #pragma once
 
-#include <optional>
 #include <span>
 #include <string>
 
+#include "tools/formats/crowd_file.h"
 #include "tools/rig/limbs.h"
 
 namespace swivel::tools {
@@ -26,15 +27,11 @@ struct CarryPlan {
 // Why the figure cannot carry a box, and what to do; empty if it can. It needs both arms, and a joint where they meet.
 std::string why_not_carry(const formats::Clip& clip, std::span<const Limb> limbs);
 
-// The crowd file's wishes.
-struct AskedBox {
-    double share;
-    std::optional<Eigen::Vector3d> size, place;  // not given: they suit the arms
-    double shortest;                             // the shortest arms, as a share of the clip's own
-};
-// up_w, faces_w: of the figure at rest, unit, at right angles. The figure must be able to carry.
-CarryPlan plan_carry(const formats::Clip& clip, std::span<const Limb> limbs, const AskedBox& asked,
-                     const Eigen::Vector3d& up_w, const Eigen::Vector3d& faces_w);
+// asked: a box without a size or place gets one that suits the arms. shortest: the shortest arms of the crowd, as a
+// share of the clip's own. up_w, faces_w: of the figure at rest, unit, at right angles. The figure must be able to
+// carry.
+CarryPlan plan_carry(const formats::Clip& clip, std::span<const Limb> limbs, const formats::CarrySettings& asked,
+                     double shortest, const Eigen::Vector3d& up_w, const Eigen::Vector3d& faces_w);
 
 // Where an arm's wrist is at the box's side, in the world. pose_w: of one frame of the clip.
 Eigen::Vector3d carrying_wrist(const CarryPlan& plan, formats::LimbName arm,

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "tools/crowd/heading.h"
 
@@ -37,48 +36,35 @@ CharacterStream::CharacterStream(const CrowdPlan& plan, std::span<const Limb> li
 
 goal_character CharacterStream::next()
 {
+    const auto word = [](std::size_t count) { return static_cast<std::uint32_t>(count); };
     const std::uint32_t n = made_++;
-    const auto wish = [&](double size) { return static_cast<float>(size * plan_.shift_wish); };
-    const auto performing = [&](std::size_t clip, double size, const Eigen::Vector3d& place, std::size_t start,
-                                float heading) {
-        const auto word = [](std::size_t count) { return static_cast<std::uint32_t>(count); };
-        const std::uint32_t carries =
-            plan_.carry && (n == 0 ? plan_.carry->share >= 1 : drawn_share(carriers_) < plan_.carry->share);
-        return goal_character{size,
-                              {place.x(), place.y(), place.z()},
-                              word(start),
-                              wish(size),
-                              word(clips_[clip].first),
-                              word(clips_[clip].count),
-                              carries,
-                              heading};
-    };
-    if (!plan_.agents.empty()) {
-        const PlannedAgent& agent = plan_.agents[n];
-        return performing(agent.clip, agent.size, agent.place, agent.start, agent.heading);
-    }
-    if (n == 0) return performing(0, 1, Eigen::Vector3d(0, 0, 0), 0, 0);
-    const double size = static_cast<float>(plan_.min_size + (plan_.max_size - plan_.min_size) * drawn_share(random_));
-    const std::uint64_t drawn = random_();
-    const std::size_t clip = clips_.size() == 1 ? 0 : random_() % clips_.size();
-    const std::size_t start = plan_.stagger ? drawn % clips_[clip].starts : 0;
-    const double degrees =
-        plan_.has_headings()
-            ? plan_.min_heading_deg + (plan_.max_heading_deg - plan_.min_heading_deg) * drawn_share(headings_)
-            : 0;
-    const Eigen::Vector3d grid(spacing_ * (n % columns_), 0, spacing_ * (n / columns_));
-    goal_character who = performing(clip, size, grid + (1 - size) * plan_.foot, start, heading_of(degrees));
-    if (who.heading != 0) {  // the foot stays where it is
-        Eigen::Vector3d foot = size * plan_.foot;
-        turn_with(who, foot.x(), foot.z());
-        Eigen::Map<Eigen::Vector3d>(who.place) = grid + plan_.foot - foot;
-    }
+    const PlannedAgent agent = plan_.agents.empty() ? drawn(n) : plan_.agents[n];
+    goal_character who = agent.who;
+    who.first = word(clips_[agent.clip].first), who.count = word(clips_[agent.clip].count);
+    who.wish = static_cast<float>(who.size * plan_.shift_wish);
+    who.carries = plan_.carry && (n == 0 ? plan_.carry->share >= 1 : drawn_share(carriers_) < plan_.carry->share);
     return who;
 }
 
-float heading_of(double degrees)
+PlannedAgent CharacterStream::drawn(std::uint32_t n)
 {
-    return static_cast<float>(std::tan(std::remainder(degrees, 360) * std::numbers::pi / 720));
+    PlannedAgent agent{};
+    goal_character& who = agent.who;
+    who.size = 1;
+    if (n == 0) return agent;
+    who.size = static_cast<float>(drawn_in(plan_.size, random_));
+    const std::uint64_t start = random_();
+    agent.clip = clips_.size() == 1 ? 0 : random_() % clips_.size();
+    if (plan_.stagger) who.start = static_cast<std::uint32_t>(start % clips_[agent.clip].starts);
+    const Eigen::Vector3d grid(spacing_ * (n % columns_), 0, spacing_ * (n / columns_));
+    Eigen::Map<Eigen::Vector3d> place(who.place);
+    place = grid + (1 - who.size) * plan_.foot;
+    if (!plan_.has_headings()) return agent;
+    who.heading = heading_of(drawn_in(plan_.heading_deg, headings_));
+    Eigen::Vector3d foot = who.size * plan_.foot;  // stays where it is
+    turn_with(who, foot.x(), foot.z());
+    place = grid + plan_.foot - foot;
+    return agent;
 }
 
 std::vector<goal_character> characters_of(const CrowdPlan& plan, std::span<const Limb> limbs, std::size_t frame_count)

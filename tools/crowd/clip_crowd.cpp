@@ -31,17 +31,14 @@ ClipCrowd::ClipCrowd(const formats::Clip& clip, std::span<const Limb> limbs, con
     : clip_(clip),
       motion_(clip, limbs, plan),
       limbs_(limbs),
-      plans_(plan.limbs),
-      agents_(plan.agents),
-      has_headings_(plan.has_headings()),
-      setups_(limb_setups(limbs, plan)),
+      plan_(plan),
+      setups_(limb_setups(plan)),
       crowd_(setups_, sources_of(motion_, setups_.size()), characters_of(plan, limbs, motion_.frame_count()),
              plan.budget_blocks, plan.ground ? &*plan.ground : nullptr, clip.frame_time)
 {
     given_at_.resize(limbs.size(), std::vector<std::int32_t>(plan.characters));
     rows_.resize(limbs.size() * plan.characters);
-    const formats::PoseColumns wanted = columns();
-    if (wanted.stretch || wanted.clavicle || wanted.twist_count > 0) extras_.resize(rows_.size());
+    if (columns().has_extras()) extras_.resize(rows_.size());
 }
 
 std::size_t ClipCrowd::limb_index(formats::LimbName name) const
@@ -67,11 +64,20 @@ Quaterniond ClipCrowd::headed(std::uint32_t character, const Quaterniond& q) con
     return who.heading == 0 ? q : Quaterniond(turn.w, 0, turn.y, 0) * q;
 }
 
+Vector3d ClipCrowd::offset(std::size_t limb, std::uint32_t character) const
+{
+    return headed(character, Vector3d(setups_[limb].goals.target_offset));
+}
+
 // Whether elbow and upper arm should be as in the clip.
 bool ClipCrowd::follows_clip(std::size_t limb, std::uint32_t character) const
 {
-    const LimbPlan& plan = plans_[limb];
-    return plan.follows_clip() && !crowd_.has_ground() && !given(limb, character) && !carries(limb, character);
+    const LimbSetup& setup = setups_[limb];
+    const goal_plan& goals = setup.goals;
+    const bool has_own_goal = goals.holds || goals.has_target_point || !Vector3d(goals.target_offset).isZero(0) ||
+                              given(limb, character) || carries(limb, character);
+    const bool has_own_pole = goals.has_pole_fixed || goals.holds_pole;
+    return !has_own_goal && !has_own_pole && !setup.has(SWIVEL_WITH_AIM | SWIVEL_WITH_CLAVICLE) && !crowd_.has_ground();
 }
 
 const formats::Target* ClipCrowd::given(std::size_t limb, std::uint32_t character) const
@@ -83,16 +89,16 @@ const formats::Target* ClipCrowd::given(std::size_t limb, std::uint32_t characte
 // Parts that a given target lacks stay as planned.
 void ClipCrowd::set_given(std::size_t limb, std::uint32_t character)
 {
-    const LimbPlan& plan = plans_[limb];
+    const LimbSetup& setup = setups_[limb];
     const formats::Target& target = *given(limb, character);
     goal_input& input = crowd_.input(limb, character);
-    put(target.position + headed(character, plan.target_offset), input.target);
-    std::copy_n(setups_[limb].goals.weights, 2, input.weights);
-    if (target.has_pole && !plan.pole_fixed) {
+    put(target.position + offset(limb, character), input.target);
+    std::copy_n(setup.goals.weights, 2, input.weights);
+    if (target.has_pole && !setup.goals.has_pole_fixed) {
         put(target.pole, input.pole);
-        input.weights[2] = setups_[limb].goals.weights[2];
+        input.weights[2] = setup.goals.weights[2];
     }
-    if (target.has_orientation && !plan.has(SWIVEL_WITH_AIM)) put(target.orientation.coeffs(), input.hand);
+    if (target.has_orientation && !setup.has(SWIVEL_WITH_AIM)) put(target.orientation.coeffs(), input.hand);
 }
 
 // The target as given or made, without the plan's offset.
@@ -101,15 +107,15 @@ formats::Target ClipCrowd::target(std::size_t limb, std::uint32_t character) con
     const goal_input& input = crowd_.input(limb, character);
     const formats::Target* const told = given(limb, character);
     formats::Target target;
-    target.position =
-        told ? told->position : Vector3d(Vector3d(input.target) - headed(character, plans_[limb].target_offset));
+    target.position = told ? told->position : Vector3d(Vector3d(input.target) - offset(limb, character));
     target.pole = Vector3d(input.pole);
     target.orientation =
         told && told->has_orientation ? told->orientation : headed(character, in_clip(limb, character).hand);
     target.frame = static_cast<std::uint32_t>(frame_);
     target.character = character;
     target.limb = limbs_[limb].name;
-    target.has_pole = crowd_.has(limb, SWIVEL_POLE) && (!plans_[limb].has(SWIVEL_WITH_WEIGHTS) || input.weights[2] > 0);
+    target.has_pole =
+        crowd_.has(limb, SWIVEL_POLE) && (!setups_[limb].has(SWIVEL_WITH_WEIGHTS) || input.weights[2] > 0);
     target.has_orientation = true;
     return target;
 }
@@ -176,7 +182,7 @@ formats::PoseRow ClipCrowd::solved_pose(std::size_t limb, std::uint32_t characte
     row.size = who.size;
     row.start = who.first + who.start;
     row.heading_deg = degrees_of(who);
-    if (!agents_.empty()) row.name = agents_[character].name;
+    if (!plan_.agents.empty()) row.name = plan_.agents[character].name;
     row.limb = limbs_[limb].name;
     row.shoulder = crowd_.rotation(limb, character, 1);
     row.elbow = crowd_.rotation(limb, character, 2);
@@ -205,11 +211,11 @@ formats::PoseExtra ClipCrowd::extra(std::size_t limb, std::uint32_t character) c
     formats::PoseExtra extra;
     if (crowd_.has(limb, SWIVEL_STRETCH))
         crowd_.read(limb, SWIVEL_STRETCH, character, 1, {&extra.stretch, sizeof extra.stretch});
-    if (plans_[limb].has(SWIVEL_WITH_CLAVICLE)) {
+    if (setups_[limb].has(SWIVEL_WITH_CLAVICLE)) {
         extra.has_clavicle = true;
         put(clavicle(limb, character).coeffs(), extra.clavicle);
     }
-    extra.twist_count = plans_[limb].twist_bone_count;
+    extra.twist_count = setups_[limb].twist_bone_count;
     for (unsigned n = 0; n < extra.twist_count; ++n) extra.twist[n] = crowd_.rotation(limb, character, GOAL_JOINTS + n);
     return extra;
 }
@@ -217,13 +223,13 @@ formats::PoseExtra ClipCrowd::extra(std::size_t limb, std::uint32_t character) c
 formats::PoseColumns ClipCrowd::columns() const
 {
     formats::PoseColumns columns;
-    for (const LimbPlan& plan : plans_) {
-        columns.stretch = columns.stretch || plan.has(SWIVEL_WITH_REACH);
-        columns.clavicle = columns.clavicle || plan.has(SWIVEL_WITH_CLAVICLE);
-        columns.twist_count = std::max(columns.twist_count, plan.twist_bone_count);
+    for (const LimbSetup& limb : setups_) {
+        columns.stretch = columns.stretch || limb.has(SWIVEL_WITH_REACH);
+        columns.clavicle = columns.clavicle || limb.has(SWIVEL_WITH_CLAVICLE);
+        columns.twist_count = std::max(columns.twist_count, limb.twist_bone_count);
     }
-    columns.heading = has_headings_;
-    columns.name = !agents_.empty();
+    columns.heading = plan_.has_headings();
+    columns.name = !plan_.agents.empty();
     return columns;
 }
 
@@ -243,7 +249,7 @@ std::span<const formats::Target> ClipCrowd::targets()
     rows_of(targets_, [&](std::size_t limb, std::uint32_t character) { return target(limb, character); });
     std::erase_if(targets_, [&](const formats::Target& each) {  // targets that no limb follows
         const std::size_t limb = limb_index(each.limb);
-        if (plans_[limb].holds) return true;
+        if (setups_[limb].goals.holds) return true;
         return crowd_.has_ground() && setups_[limb].goals.goes_along && !given(limb, each.character) &&
                !carries(limb, each.character);
     });

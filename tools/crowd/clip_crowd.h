@@ -88,6 +88,7 @@ private:
         Eigen::Quaterniond upper, fore, hand;
     };
     Reached reached(std::size_t limb, const formats::PoseRow& row) const;
+    Eigen::Vector3d offset(std::size_t limb, std::uint32_t character) const;  // of a given target
     Eigen::Vector3d target_point(std::size_t limb, std::uint32_t character) const;
     void measure_against_clip(std::size_t limb, const PoseName& pose, const Reached& at,
                               LimbStatistics& statistics) const;
@@ -95,9 +96,7 @@ private:
     const formats::Clip& clip_;
     ClipMotion motion_;
     std::span<const Limb> limbs_;
-    std::span<const LimbPlan> plans_;
-    std::span<const PlannedAgent> agents_;
-    bool has_headings_;
+    const CrowdPlan& plan_;
     std::vector<LimbSetup> setups_;
     std::vector<formats::Target> given_;               // to set_frame()
     std::vector<std::vector<std::int32_t>> given_at_;  // [limb][character]: which of them; -1: none

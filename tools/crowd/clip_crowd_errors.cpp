@@ -59,7 +59,7 @@ ClipCrowd::Reached ClipCrowd::reached(std::size_t limb, const formats::PoseRow& 
     const double size = characters()[row.character].size, bone = size * stretch;
     const auto place = [&](std::size_t joint) { return Vector3d(Eigen::Vector3f(input.places[joint]).cast<double>()); };
     const auto as_solved = [&](const std::array<float, 4>& q) { return limbs_[limb].as_solved(quaternion(q)); };
-    const Quaterniond parent = plans_[limb].has(SWIVEL_WITH_CLAVICLE)
+    const Quaterniond parent = setups_[limb].has(SWIVEL_WITH_CLAVICLE)
                                    ? quaternion(crowd_.rotation(limb, row.character, 0))
                                    : quaternion(input.rotations[0]);
     const Quaterniond upper = parent * as_solved(row.shoulder), fore = upper * as_solved(row.elbow);
@@ -73,7 +73,7 @@ ClipCrowd::Reached ClipCrowd::reached(std::size_t limb, const formats::PoseRow& 
 // The limb's solved goal: that of a standing foot or a holding hand differs from the clip's.
 Vector3d ClipCrowd::target_point(std::size_t limb, std::uint32_t character) const
 {
-    if (!plans_[limb].has(kSent)) return Vector3d(crowd_.input(limb, character).target);
+    if (!setups_[limb].has(kSent)) return Vector3d(crowd_.input(limb, character).target);
     float goal[7];
     crowd_.read(limb, SWIVEL_SOLVED_GOAL, character, 1, {goal, sizeof goal});
     return Vector3d(crowd_.root(character).place) + Vector3d(goal[0], goal[1], goal[2]);
@@ -82,9 +82,10 @@ Vector3d ClipCrowd::target_point(std::size_t limb, std::uint32_t character) cons
 void ClipCrowd::measure_range(std::size_t limb, std::uint32_t begin, std::uint32_t end,
                               LimbStatistics& statistics) const
 {
-    const LimbPlan& plan = plans_[limb];
-    const bool hand = plan.has(SWIVEL_WITH_HAND), aims = plan.has(SWIVEL_WITH_AIM);
-    statistics.has_effector = !plan.effector.isZero(0);
+    const LimbSetup& setup = setups_[limb];
+    const bool hand = setup.has(SWIVEL_WITH_HAND), aims = setup.has(SWIVEL_WITH_AIM);
+    const Vector3d effector(setup.goals.effector);
+    statistics.has_effector = !effector.isZero(0);
     std::vector<double> residuals(end - begin);
     if (aims) crowd_.residuals(limb, begin, end - begin, {residuals.data(), sizeof residuals[0]});
     for (std::uint32_t n = begin; n < end; ++n) {
@@ -92,7 +93,7 @@ void ClipCrowd::measure_range(std::size_t limb, std::uint32_t begin, std::uint32
         const formats::PoseRow row = solved_pose(limb, n);
         const Reached at = reached(limb, row);
         const PoseName pose{frame_, n, limbs_[limb].name};
-        const Vector3d end_point = at.wrist + characters()[n].size * (at.hand * plan.effector);
+        const Vector3d end_point = at.wrist + characters()[n].size * (at.hand * effector);
         const float(&weights)[3] = crowd_.input(limb, n).weights;
         const double distance = weights[0] == 0 ? 0
                                 : aims          ? residuals[n - begin]
@@ -104,7 +105,7 @@ void ClipCrowd::measure_range(std::size_t limb, std::uint32_t begin, std::uint32
             (is_reached ? statistics.aimed : statistics.aim_missed).add(distance, pose);
         else if (weights[0] == 1)
             (is_reached ? statistics.reached : statistics.missed).add(distance, pose);
-        if (hand && weights[1] == 1 && !aims && !plan.has(kSent))
+        if (hand && weights[1] == 1 && !aims && !setup.has(kSent))
             statistics.orientation.add(angle(target(limb, n).orientation.conjugate() * at.hand), pose);
         measure_against_clip(limb, pose, at, statistics);
     }

@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "tools/crowd/clip_parts.h"
+
 namespace swivel::tools {
 
 namespace {
@@ -59,7 +61,7 @@ MatrixXf looks_of(const Clip& clip, int body)
     const std::size_t joints = clip.joints.size();
     std::vector<Quaterniond> rotations = clip.rotation;
     for (std::size_t frame = 0; frame < clip.frame_count; ++frame) {
-        const Quaterniond heading = heading_of(clip, frame, body).conjugate();
+        const Quaterniond heading = stand_of(clip, frame, body).turn.conjugate();
         for (std::size_t n = 0; n < joints; ++n)
             if (clip.joints[n].parent < 0) rotations[frame * joints + n] = heading * rotations[frame * joints + n];
     }
@@ -177,15 +179,11 @@ FoundLoop nearest(const MatrixXf& looks, const Pace& pace, std::size_t apart, fl
 
 }  // namespace
 
-Quaterniond heading_of(const Clip& clip, std::size_t frame, int body) { return stand_of(clip, frame, body).turn; }
-
 Clip looped(const Clip& clip, int body, const ClipLoop& loop, std::size_t frame_count)
 {
     const std::size_t joints = clip.joints.size();
-    Clip to;
-    to.joints = clip.joints, to.human_bones = clip.human_bones;
-    to.frame_time = clip.frame_time, to.frame_count = frame_count;
-    to.track_count = clip.track_count, to.scale_track_count = clip.scale_track_count;
+    Clip to = frames_of(clip, {});
+    to.frame_count = frame_count;
     for (formats::Joint& joint : to.joints)  // roots go on
         if (joint.parent < 0 && joint.track < 0) joint.track = static_cast<int>(to.track_count++);
     to.rotation.reserve(frame_count * joints);

@@ -19,11 +19,9 @@ struct ClipLoop {
 inline constexpr std::size_t kFewestLooped = 2;  // frames of a loop, however long each takes
 inline constexpr double kSeam = 0.15;            // seconds in which the seam's difference fades
 
-// A body's turn about y in a frame. body: a joint that all others move with, such as the hips.
-Eigen::Quaterniond heading_of(const formats::Clip& clip, std::size_t frame, int body);
-
-// The looped clip for this many frames from `first` on. Each round goes on from where the last one ended, moved along x
-// and z and turned about y. The remaining difference at the seam fades in kSeam.
+// The looped clip for this many frames from `first` on. body: a joint that all others move with, such as the hips. Each
+// round goes on from where the last one ended, moved along x and z and turned about y. The remaining difference at the
+// seam fades in kSeam.
 formats::Clip looped(const formats::Clip& clip, int body, const ClipLoop& loop, std::size_t frame_count);
 
 inline constexpr std::size_t kMaxSearched = 100'000;  // frames

@@ -59,8 +59,8 @@ goal_source source_of(const LimbInClip& in, const Vector3d& origin, const Vector
     put(origin, source.origin);
     put(root, source.root);
     put(in.parent.coeffs(), source.parent);
-    put(in.local_shoulder().coeffs(), source.shoulder);
-    put(in.local_elbow().coeffs(), source.elbow_local);
+    put((in.parent.conjugate() * in.upper).coeffs(), source.shoulder);
+    put((in.upper.conjugate() * in.fore).coeffs(), source.elbow_local);
     put(in.local_wrist().coeffs(), source.wrist_local);
     return source;
 }
@@ -116,9 +116,8 @@ ClipMotion::ClipMotion(const formats::Clip& clip, std::span<const Limb> limbs, c
                     clip.rotation[frame * clip.joints.size() + static_cast<std::size_t>(parent)];
             sources_[n].push_back(
                 source_of(limbs_.back(), pose_w[static_cast<std::size_t>(limb.upper())].position, root));
-            const std::vector<bool>& contact = plan.limbs[n].contact;
             goal_source& source = sources_[n].back();
-            source.contact = frame < contact.size() && contact[frame] ? 1.0f : 0.0f;
+            if (plan.limbs[n].has(SWIVEL_WITH_GROUND)) source.contact = plan.contacts[n][frame] ? 1.0f : 0.0f;
             if (plan.carry && limb.name.kind == formats::LimbKind::arm) {
                 source.carries = 1;
                 put(carrying_wrist(*plan.carry, limb.name, pose_w) - Vector3d(source.origin), source.carried);
@@ -131,7 +130,7 @@ ClipMotion::ClipMotion(const formats::Clip& clip, std::span<const Limb> limbs, c
     for (std::size_t n = 0; n < limbs.size(); ++n) {
         settle_lengths(sources_[n], limbs[n].bound.lengths);
         if (plan.limbs[n].has(SWIVEL_WITH_GROUND))
-            for (const ClipPart& part : parts) put_strides(plan.limbs[n].contact, part, clip.frame_time, sources_[n]);
+            for (const ClipPart& part : parts) put_strides(plan.contacts[n], part, clip.frame_time, sources_[n]);
     }
 }
 

@@ -21,8 +21,6 @@ struct LimbInClip {
     double upper_length() const { return elbow.norm(); }
     double fore_length() const { return (wrist - elbow).norm(); }
 
-    Eigen::Quaterniond local_shoulder() const { return parent.conjugate() * upper; }
-    Eigen::Quaterniond local_elbow() const { return upper.conjugate() * fore; }
     Eigen::Quaterniond local_wrist() const { return fore.conjugate() * hand; }
 };
 

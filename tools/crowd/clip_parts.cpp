@@ -20,13 +20,6 @@ using formats::Joint;
 
 constexpr double kSame = 1e-3;  // of the longest bone, of a scale, and of a rotation at rest
 
-Vector3d local_scale(const Clip& clip, std::size_t frame, std::size_t joint)
-{
-    const Joint& own = clip.joints[joint];
-    return own.scale_track < 0 ? own.rest_scale
-                               : clip.scale[frame * clip.scale_track_count + static_cast<std::size_t>(own.scale_track)];
-}
-
 // Frames beside each other are so alike that a normalised blend turns as evenly as a slerp.
 Eigen::Quaterniond blended(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b, double share)
 {
@@ -65,7 +58,7 @@ void append(Clip& to, const Clip& from, const ClipPart& part, const Vector3d& wa
                     formats::local_translation(from, frame, n) + (joint.parent < 0 ? way : Vector3d(0, 0, 0));
             if (joint.scale_track >= 0)
                 to.scale[to.frame_count * to.scale_track_count + static_cast<std::size_t>(joint.scale_track)] =
-                    local_scale(from, frame, n);
+                    formats::local_scale(from, frame, n);
         }
 }
 
@@ -93,8 +86,8 @@ std::string difference_of(const Clip& clip, const Clip& other)
 
 Clip joined(std::span<const Clip> clips, int body)
 {
-    Clip to;
-    to.joints = clips[0].joints, to.human_bones = clips[0].human_bones, to.frame_time = clips[0].frame_time;
+    Clip to = frames_of(clips[0], {});
+    to.track_count = to.scale_track_count = 0;
     for (std::size_t n = 0; n < to.joints.size(); ++n) {
         bool moves = to.joints[n].parent < 0, scales = false;
         for (const Clip& clip : clips)
@@ -113,7 +106,7 @@ Clip joined(std::span<const Clip> clips, int body)
 
 Clip paced(const Clip& clip, std::vector<ClipPart>& parts, std::span<const double> speeds, std::size_t frames)
 {
-    Clip to = frames_of(clip, 0);
+    Clip to = frames_of(clip, {});
     for (std::size_t n = 0; n < parts.size(); ++n) {
         const ClipPart from = parts[n];
         const auto round = static_cast<std::size_t>(std::ceil(static_cast<double>(from.starts) / speeds[n]));
@@ -140,8 +133,6 @@ double floor_of(const Clip& clip, std::size_t frame_count)
     }
     return quantile(std::move(lowest), 0.25);
 }
-
-Clip frames_of(const Clip& clip, std::size_t frame_count) { return frames_of(clip, {0, frame_count, 0}); }
 
 Clip frames_of(const Clip& clip, const ClipPart& part)
 {

@@ -32,8 +32,7 @@ formats::Clip joined(std::span<const formats::Clip> clips, int body);
 formats::Clip paced(const formats::Clip& clip, std::vector<ClipPart>& parts, std::span<const double> speeds,
                     std::size_t frames);
 
-// Its first frames alone, and the frames of one of its parts.
-formats::Clip frames_of(const formats::Clip& clip, std::size_t frame_count);
+// The frames of one of its parts alone; of an empty part the skeleton alone.
 formats::Clip frames_of(const formats::Clip& clip, const ClipPart& part);
 
 // The floor of a clip's first frames, along y: the lower quartile of the lowest joint's height, so that a toe that is

@@ -48,13 +48,78 @@ std::vector<formats::Maybe<formats::Limit>> hand_limits(const LimbSettings& sett
     return limits;
 }
 
+void require_no_idle_key(const CrowdFile& file, const LimbSettings& s)
+{
+    // None of these is given beside what makes it mean nothing.
+    const auto refuse_beside = [&](const auto& what, std::string_view value, const auto&... useless) {
+        const std::string cause =
+            fmt::format("means nothing beside {}{} in line {}; take one of them out", what->key, value, what->line);
+        refuse_given(file, cause, useless...);
+    };
+    const bool has_no_hand = s.hand && !s.hand->value;
+    const auto has_pole = [&](PoleKind kind) { return s.pole_kind && s.pole_kind->value == kind; };
+    if (has_no_hand) refuse_beside(s.hand, " = false", s.effector, s.weights[1], hand_limits(s), s.twist_bones, s.aim);
+    if (has_pole(PoleKind::hand)) refuse_beside(s.pole_kind, " = \"hand\"", s.pole_fixed, s.aim);
+    if (has_pole(PoleKind::hand) && has_no_hand) refuse_beside(s.hand, " = false", s.pole_kind);
+    if (has_pole(PoleKind::half_line)) refuse_beside(s.pole_kind, " = \"half_line\"", s.pole_fixed);
+    if (s.hold) refuse_beside(s.hold, "", s.aim, s.target_point, s.target_offset);
+    if (s.hold && has_no_hand) refuse_beside(s.hand, " = false", s.hold);
+    if (s.aim) refuse_beside(s.aim, "", s.weights, s.reach, s.limits[0], hand_limits(s));
+    if (has_pole(PoleKind::incoming)) refuse_beside(s.pole_kind, " = \"incoming\"", s.pole_fixed, s.weights[2]);
+    const bool points = has_pole(PoleKind::direction) || has_pole(PoleKind::normal);
+    if (points && s.pole_fixed && !(s.pole_fixed->value.stableNorm() > 1e-15))
+        refuse(file, *s.pole_fixed,
+               fmt::format("has no length, so no direction, and {} in line {} wants one; write [x, y, z], not all of "
+                           "them 0",
+                           s.pole_kind->key, s.pole_kind->line));
+    if (s.step_wins && s.step_wins->value && !s.step_deg_per_frame && !s.step_deg_per_second)
+        refuse(file, *s.step_wins,
+               "means nothing without max_deg_per_second or max_deg_per_frame; give that, or take this out");
+}
+
+void require_own_clavicle(const CrowdFile& file, const LimbSettings& s, const formats::Clip& clip, const Limb& limb)
+{
+    if (!s.clavicle_share) return;
+    const std::string name = plain_name(limb.name);
+    const auto refuse_clavicle = [&](const std::string& cause) { refuse(file, *s.clavicle_share, cause); };
+    const int above = formats::joint_at(clip, limb.upper()).parent;
+    if (above < 0) refuse_clavicle(fmt::format("there is no joint above the {}", name));
+    const formats::Joint& joint = formats::joint_at(clip, above);
+    const std::string shown = fmt::format("the joint above the {}, {},", name, printable_name(joint));
+    if (formats::child_joints(clip, above).size() > 1)
+        refuse_clavicle(shown + " carries other joints, which would turn along");
+    if (formats::joint_at(clip, limb.upper()).offset.isZero(0))
+        refuse_clavicle(fmt::format("the {} starts where the joint above it is; there is no bone to turn", name));
+    if (limb.mirrored || joint.rest_scale.minCoeff() < 0 || joint.scale_track >= 0)
+        refuse_clavicle(shown + " is mirrored or changes its scale; such a joint is not turned");
+}
+
+void require_can_stand(const CrowdFile& file, const LimbSettings& s)
+{
+    const std::string cause =
+        fmt::format("keeps a leg from standing on the ground of line {}; take one of them out", file.ground->line);
+    refuse_given(file, cause, s.hold, s.aim, s.target_point, s.reach);
+    if (s.hand && !s.hand->value) refuse_given(file, cause, s.hand);
+}
+
+void require_can_carry(const CrowdFile& file, const LimbSettings& s)
+{
+    const std::string cause = fmt::format(
+        "is of a hand's goal, and with the table of line {}, carry, hands go along with forearms; take one "
+        "of them out",
+        file.carry->line);
+    if (s.hand && s.hand->value) refuse_given(file, cause, s.hand);
+    if (s.pole_kind && s.pole_kind->value == PoleKind::hand) refuse_given(file, cause, s.pole_kind);
+    refuse_given(file, cause, s.aim, s.effector, s.weights[1], hand_limits(s), s.twist_bones);
+}
+
 }  // namespace
 
 std::string checked_targets(const CrowdFile& file)
 {
     if (!file.targets || file.targets->value == "clip") return "clip";
     if (formats::is_standard_stream(file.targets->value)) return file.targets->value;
-    const std::filesystem::path path = file.path.parent_path() / file.targets->value;
+    const std::filesystem::path path = beside(file, *file.targets);
     std::error_code unknown;
     if (std::filesystem::is_fifo(path, unknown)) return path.string();  // opened twice it would lose its writer
     try {
@@ -77,55 +142,15 @@ LimitInfo limit_info(std::size_t limit)
     return {info.field, (brings.needs & SWIVEL_WITH_HAND) != 0};
 }
 
-void require_sense(const CrowdFile& file, const LimbSettings& s)
+void require_sense(const CrowdFile& file, const LimbSettings& s, const formats::Clip& clip, const Limb& limb)
 {
-    // None of these is given beside what makes it mean nothing.
-    const auto refuse_beside = [&](const auto& what, std::string_view value, const auto&... useless) {
-        const std::string cause =
-            fmt::format("means nothing beside {}{} in line {}; take one of them out", what->key, value, what->line);
-        refuse_given(file, cause, useless...);
-    };
-    if (s.hand && !s.hand->value)
-        refuse_beside(s.hand, " = false", s.effector, s.weights[1], hand_limits(s), s.twist_bones, s.aim);
-    const bool by_hand = s.pole_kind && s.pole_kind->value == PoleKind::hand;
-    if (by_hand) refuse_beside(s.pole_kind, " = \"hand\"", s.pole_fixed, s.aim);
-    if (by_hand && s.hand && !s.hand->value) refuse_beside(s.hand, " = false", s.pole_kind);
-    if (s.pole_kind && s.pole_kind->value == PoleKind::half_line)
-        refuse_beside(s.pole_kind, " = \"half_line\"", s.pole_fixed);
-    if (s.hold) refuse_beside(s.hold, "", s.aim, s.target_point, s.target_offset);
-    if (s.hold && s.hand && !s.hand->value) refuse_beside(s.hand, " = false", s.hold);
-    if (s.aim) refuse_beside(s.aim, "", s.weights, s.reach, s.limits[0], hand_limits(s));
-    if (s.pole_kind && s.pole_kind->value == PoleKind::incoming)
-        refuse_beside(s.pole_kind, " = \"incoming\"", s.pole_fixed, s.weights[2]);
-    const bool points =
-        s.pole_kind && (s.pole_kind->value == PoleKind::direction || s.pole_kind->value == PoleKind::normal);
-    if (points && s.pole_fixed && !(s.pole_fixed->value.stableNorm() > 1e-15))
-        refuse(file, *s.pole_fixed,
-               fmt::format("has no length, so no direction, and {} in line {} wants one; write [x, y, z], not all of "
-                           "them 0",
-                           s.pole_kind->key, s.pole_kind->line));
-    if (s.step_wins && s.step_wins->value && !s.step_deg_per_frame && !s.step_deg_per_second)
-        refuse(file, *s.step_wins,
-               "means nothing without max_deg_per_second or max_deg_per_frame; give that, or take this out");
-}
-
-void require_can_stand(const CrowdFile& file, const LimbSettings& s)
-{
-    const std::string cause =
-        fmt::format("keeps a leg from standing on the ground of line {}; take one of them out", file.ground->line);
-    refuse_given(file, cause, s.hold, s.aim, s.target_point, s.reach);
-    if (s.hand && !s.hand->value) refuse_given(file, cause, s.hand);
-}
-
-void require_can_carry(const CrowdFile& file, const LimbSettings& s)
-{
-    const std::string cause = fmt::format(
-        "is of a hand's goal, and with the table of line {}, carry, hands go along with forearms; take one "
-        "of them out",
-        file.carry->line);
-    if (s.hand && s.hand->value) refuse_given(file, cause, s.hand);
-    if (s.pole_kind && s.pole_kind->value == PoleKind::hand) refuse_given(file, cause, s.pole_kind);
-    refuse_given(file, cause, s.aim, s.effector, s.weights[1], hand_limits(s), s.twist_bones);
+    require_no_idle_key(file, s);
+    require_own_clavicle(file, s, clip, limb);
+    if (s.step_deg_per_second && clip.frame_time == 0)
+        refuse(file, *s.step_deg_per_second, "needs even frames, and the clip's keys lie at uneven times; give --fps");
+    const bool is_leg = limb.name.kind == formats::LimbKind::leg;
+    if (file.ground && is_leg) require_can_stand(file, s);
+    if (file.carry && !is_leg) require_can_carry(file, s);
 }
 
 void require_can_hold(const CrowdFile& file, std::span<const Limb> limbs)
@@ -133,24 +158,23 @@ void require_can_hold(const CrowdFile& file, std::span<const Limb> limbs)
     for (const Limb& limb : limbs) {
         const LimbSettings settings = settings_of(file, limb.name);
         if (!settings.hold) continue;
+        const auto refuse_hold = [&](const std::string& cause) { refuse(file, *settings.hold, cause); };
         const formats::LimbName held = settings.hold->value;
-        if (held == limb.name) refuse(file, *settings.hold, "is this limb itself; name the other one");
+        const std::string name = plain_name(held);
+        if (held == limb.name) refuse_hold("is this limb itself; name the other one");
         if (std::ranges::find(limbs, held, &Limb::name) == limbs.end())
-            refuse(file, *settings.hold, fmt::format("the {} is not solved; see crowd.limbs", plain_name(held)));
+            refuse_hold(fmt::format("the {} is not solved; see crowd.limbs", name));
         const LimbSettings of_held = settings_of(file, held);
         if (of_held.hold)
-            refuse(file, *settings.hold,
-                   fmt::format("the {} holds something itself, by line {}; take one of them out", plain_name(held),
-                               of_held.hold->line));
+            refuse_hold(fmt::format("the {} holds something itself, by line {}; take one of them out", name,
+                                    of_held.hold->line));
         const bool has_arm = limb.name.kind == formats::LimbKind::arm || held.kind == formats::LimbKind::arm;
         if (file.carry && has_arm)
-            refuse(file, *settings.hold,
-                   fmt::format("hands that carry a box, by line {}, hold nothing else; take one of them out",
-                               file.carry->line));
+            refuse_hold(fmt::format("hands that carry a box, by line {}, hold nothing else; take one of them out",
+                                    file.carry->line));
         if (of_held.hand && !of_held.hand->value)
-            refuse(file, *settings.hold,
-                   fmt::format("the {} goes without a hand, by line {}; take one of them out", plain_name(held),
-                               of_held.hand->line));
+            refuse_hold(
+                fmt::format("the {} goes without a hand, by line {}; take one of them out", name, of_held.hand->line));
     }
 }
 
@@ -163,33 +187,6 @@ void require_solved(const CrowdFile& file, std::span<const Limb> limbs)
                          fmt::format("limb.{}: no such limb is solved; see crowd.limbs and limb.*.joints, or --limbs",
                                      section.selector));
     }
-}
-
-void require_even_frames(const CrowdFile& file, const LimbSettings& s, const formats::Clip& clip)
-{
-    if (s.step_deg_per_second && clip.frame_time == 0)
-        refuse(file, *s.step_deg_per_second, "needs even frames, and the clip's keys lie at uneven times; give --fps");
-}
-
-void require_own_clavicle(const CrowdFile& file, const LimbSettings& s, const formats::Clip& clip, const Limb& limb)
-{
-    if (!s.clavicle_share) return;
-    const int above = formats::joint_at(clip, limb.upper()).parent;
-    if (above < 0)
-        refuse(file, *s.clavicle_share, fmt::format("there is no joint above the {}", plain_name(limb.name)));
-    if (formats::child_joints(clip, above).size() > 1)
-        refuse(file, *s.clavicle_share,
-               fmt::format("the joint above the {}, {}, carries other joints, which would turn along",
-                           plain_name(limb.name), formats::printable_name(formats::joint_at(clip, above))));
-    if (formats::joint_at(clip, limb.upper()).offset.isZero(0))
-        refuse(
-            file, *s.clavicle_share,
-            fmt::format("the {} starts where the joint above it is; there is no bone to turn", plain_name(limb.name)));
-    const formats::Joint& joint = formats::joint_at(clip, above);
-    if (limb.mirrored || joint.rest_scale.minCoeff() < 0 || joint.scale_track >= 0)
-        refuse(file, *s.clavicle_share,
-               fmt::format("the joint above the {}, {}, is mirrored or changes its scale; such a joint is not turned",
-                           plain_name(limb.name), formats::printable_name(joint)));
 }
 
 void require_fits_motion(const CrowdFile& file, std::span<const Limb> limbs)

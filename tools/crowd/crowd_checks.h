@@ -19,8 +19,14 @@ std::string checked_targets(const formats::CrowdFile& file);
 // Requires that every table selects a solved limb.
 void require_solved(const formats::CrowdFile& file, std::span<const Limb> limbs);
 
-// Refuses keys of a limb that another key disables.
-void require_sense(const formats::CrowdFile& file, const formats::LimbSettings& settings);
+// Refuses settings of a limb
+// - that another of its keys disables;
+// - of a clavicle, unless there is a joint above the limb, at some distance, that would turn nothing else;
+// - per second, for a clip of uneven frames;
+// - that keep a leg from standing on ground;
+// - of an arm's hand where characters carry boxes: it then moves with the forearm.
+void require_sense(const formats::CrowdFile& file, const formats::LimbSettings& settings, const formats::Clip& clip,
+                   const Limb& limb);
 
 // The solver's field of a limit, and whether it limits the hand. limit: its place in formats::kLimitKeys.
 struct LimitInfo {
@@ -29,23 +35,9 @@ struct LimitInfo {
 };
 LimitInfo limit_info(std::size_t limit);
 
-// Refuses settings that keep a leg from standing on ground.
-void require_can_stand(const formats::CrowdFile& file, const formats::LimbSettings& settings);
-
-// Refuses settings of an arm's hand where characters carry boxes: it then moves with the forearm.
-void require_can_carry(const formats::CrowdFile& file, const formats::LimbSettings& settings);
-
 // Requires that a holding limb names another solved limb, which has a hand and holds nothing. With boxes no hand is
 // free.
 void require_can_hold(const formats::CrowdFile& file, std::span<const Limb> limbs);
-
-// With a clavicle: requires a joint above the limb, at some distance, that would turn nothing else.
-void require_own_clavicle(const formats::CrowdFile& file, const formats::LimbSettings& settings,
-                          const formats::Clip& clip, const Limb& limb);
-
-// Refuses settings per second for a clip of uneven frames.
-void require_even_frames(const formats::CrowdFile& file, const formats::LimbSettings& settings,
-                         const formats::Clip& clip);
 
 // Refuses stretched bones and twist bones for an output clip, BVH or glTF, which cannot store them.
 void require_fits_motion(const formats::CrowdFile& file, std::span<const Limb> limbs);

@@ -18,7 +18,7 @@ namespace swivel::tools {
 
 namespace {
 
-constexpr double kPerDegree = std::numbers::pi / 180;
+constexpr double kRadians = std::numbers::pi / 180;
 
 std::array<float, 3> floats(const Eigen::Vector3d& v)
 {
@@ -27,7 +27,7 @@ std::array<float, 3> floats(const Eigen::Vector3d& v)
 swivel_region_cone cone_of(const formats::ConeLimit& cone)
 {
     const auto [x, y, z] = floats(cone.axis);
-    return {{x, y, z}, static_cast<float>(kPerDegree * cone.opening_deg)};
+    return {{x, y, z}, static_cast<float>(kRadians * cone.opening_deg)};
 }
 
 // The upper bone's direction in each frame, in the arm frame.
@@ -73,7 +73,7 @@ swivel_region region_of(const formats::CrowdFile& file, const formats::Given<for
     if (from.mirrored) region = region.mirrored();
     if (given.clip_margin_deg > 0)  // of the limb itself, so never mirrored
         add("clip_margin_deg", [&] {
-            region.add_directions(directions_in(clip, limb), static_cast<float>(kPerDegree * given.clip_margin_deg),
+            region.add_directions(directions_in(clip, limb), static_cast<float>(kRadians * given.clip_margin_deg),
                                   static_cast<std::uint32_t>(given.clip_cones));
         });
     return region.get();
@@ -83,8 +83,6 @@ using formats::CrowdFile;
 using formats::LimbSettings;
 using formats::Maybe;
 using formats::PoleKind;
-
-constexpr double kRadians = std::numbers::pi / 180;
 
 static_assert(static_cast<int>(formats::EulerOrder::zyx) == SWIVEL_ZYX &&
               static_cast<int>(formats::EulerOrder::yxz) == SWIVEL_YXZ);
@@ -123,38 +121,17 @@ struct LimitValue {
     }
 };
 
-// The plan as the formula of goals takes it.
-goal_plan goal_plan_of(const LimbPlan& plan, const Limb& limb)
-{
-    goal_plan goals{};
-    if (plan.target_point) put(*plan.target_point, goals.target_point);
-    put(plan.target_offset, goals.target_offset);
-    put(plan.effector, goals.effector);
-    if (plan.pole_fixed) put(*plan.pole_fixed, goals.pole_fixed);
-    if (plan.clavicle) put(*plan.clavicle, goals.shoulder_place);
-    put(limb.as_solved(limb.upper_bone), goals.bones[0]);
-    put(limb.as_solved(limb.lower_bone), goals.bones[1]);
-    std::ranges::copy(plan.weights, goals.weights);
-    goals.has_target_point = plan.target_point.has_value();
-    goals.has_pole_fixed = plan.pole_fixed.has_value();
-    goals.pole = plan.pole == PoleKind::point    ? GOAL_POLE_POINT
-                 : plan.pole == PoleKind::normal ? GOAL_POLE_NORMAL
-                                                 : GOAL_POLE_DIRECTION;
-    goals.holds_pole = plan.holds_pole;
-    goals.hand_is_local = plan.has(SWIVEL_WITH_AIM);
-    goals.holds = plan.holds ? static_cast<std::uint32_t>(*plan.holds + 1) : 0;
-    goals.goes_along = !plan.holds && !plan.target_point && plan.target_offset.isZero(0) &&
-                       !plan.has(SWIVEL_WITH_PLANT) && !plan.has(SWIVEL_WITH_AIM);
-    goals.clearance = plan.ground.toe_clearance;
-    return goals;
-}
+// By PoleKind.
+constexpr swivel_features kPoleFeatures[] = {
+    0, SWIVEL_POLE_DIRECTION, SWIVEL_POLE_NORMAL, SWIVEL_POLE_INCOMING, SWIVEL_POLE_HAND, SWIVEL_POLE_HALF_LINE};
 
 // Fills in one limb's plan, key by key.
 struct Planner {
     const LimbSettings& from;
     const formats::Clip& clip;
     const Limb& limb;
-    LimbPlan plan{};
+    LimbSetup setup = following_setup(limb);
+    goal_plan& goals = setup.goals;
 
     // Converts from the end joint's axes to those that it is solved in.
     Eigen::Vector3d in_hand(const Eigen::Vector3d& v) const
@@ -164,78 +141,73 @@ struct Planner {
 
     // Fixes the value of a field, for which the limb gets the features that the field needs.
     template <std::size_t Count>
-    void put(swivel_field field, const std::array<float, Count>& value, bool mirrored = false,
+    void fix(swivel_field field, const std::array<float, Count>& value, bool mirrored = false,
              swivel_euler_order order = SWIVEL_XYZ)
     {
         FixedField fixed{field, {}};
         std::copy(value.begin(), value.end(), fixed.value.begin());
         if (mirrored) check(swivel_mirror(field, order, fixed.value.data(), fixed.value.data()));
-        plan.features |= describe(field).needs;
-        plan.fields.push_back(fixed);
+        setup.features |= describe(field).needs;
+        setup.fields.push_back(fixed);
     }
 
     void goal()
     {
-        if (from.target_point) plan.target_point = from.target_point->value;
-        if (from.target_offset) plan.target_offset = from.target_offset->value;
-        if (from.hand && !from.hand->value) plan.features &= ~SWIVEL_WITH_HAND;
+        goals.has_target_point = from.target_point.has_value();
+        if (from.target_point) put(from.target_point->value, goals.target_point);
+        if (from.target_offset) put(from.target_offset->value, goals.target_offset);
+        if (from.hand && !from.hand->value) setup.features &= ~SWIVEL_WITH_HAND;
         if (from.effector) {
-            plan.effector = in_hand(from.effector->value);
-            const Eigen::Vector3f point = plan.effector.cast<float>();
-            put(SWIVEL_EFFECTOR, std::array{point.x(), point.y(), point.z()});
+            const Eigen::Vector3d effector = in_hand(from.effector->value);
+            put(effector, goals.effector);
+            fix(SWIVEL_EFFECTOR, floats(effector));
         }
-        if (from.twist_bones) plan.twist_bone_count = static_cast<std::uint32_t>(from.twist_bones->value);
+        if (from.twist_bones) setup.twist_bone_count = static_cast<std::uint32_t>(from.twist_bones->value);
     }
 
     void pole()
     {
-        if (from.pole_kind) plan.pole = from.pole_kind->value;
-        if (from.pole_fixed) plan.pole_fixed = from.pole_fixed->value;
-        if (plan.pole == PoleKind::direction) plan.features |= SWIVEL_POLE_DIRECTION;
-        if (plan.pole == PoleKind::normal) plan.features |= SWIVEL_POLE_NORMAL;
-        if (plan.pole == PoleKind::incoming) plan.features |= SWIVEL_POLE_INCOMING;
-        if (plan.pole == PoleKind::hand) plan.features |= SWIVEL_POLE_HAND;
-        if (plan.pole == PoleKind::half_line) half_line();
+        const PoleKind kind = from.pole_kind ? from.pole_kind->value : PoleKind::point;
+        goals.pole = kind == PoleKind::point    ? GOAL_POLE_POINT
+                     : kind == PoleKind::normal ? GOAL_POLE_NORMAL
+                                                : GOAL_POLE_DIRECTION;
+        setup.features |= kPoleFeatures[static_cast<std::size_t>(kind)];
+        if (kind == PoleKind::half_line && limb.name.kind == formats::LimbKind::leg)
+            put(knee_side(), setup.pole_behind);
+        goals.has_pole_fixed = from.pole_fixed.has_value();
+        if (from.pole_fixed) put(from.pole_fixed->value, goals.pole_fixed);
         if (from.pole_angle_deg)
-            put(SWIVEL_ANGLE, cos_sin(kRadians * from.pole_angle_deg->value), from.pole_angle_deg->mirrored);
-        const bool is_by_rule = plan.pole == PoleKind::hand || plan.pole == PoleKind::half_line;
-        plan.holds_pole = from.pole_angle_deg || is_by_rule;
-        plan.follows_pole =
-            !from.aim && !from.clavicle_share && !from.pole_fixed && !from.pole_angle_deg && !is_by_rule;
+            fix(SWIVEL_ANGLE, cos_sin(kRadians * from.pole_angle_deg->value), from.pole_angle_deg->mirrored);
+        goals.holds_pole = from.pole_angle_deg || kind == PoleKind::hand || kind == PoleKind::half_line;
     }
 
     // No wrist goes behind the back, where an elbow points at rest, and no ankle, where a knee bends to.
-    void half_line()
+    Eigen::Vector3d knee_side() const
     {
-        plan.features |= SWIVEL_POLE_HALF_LINE;
-        if (limb.name.kind != formats::LimbKind::leg) return;
-        const formats::LimbRest& rest = limb.rest;
-        const Eigen::Vector3d behind = quaternion(rest.shoulder_rotation) * Eigen::Vector3f(rest.bend).cast<double>();
-        for (Eigen::Index n = 0; n < 3; ++n)
-            plan.pole_behind[static_cast<std::size_t>(n)] = static_cast<float>(behind[n]);
+        return quaternion(limb.rest.shoulder_rotation) * Eigen::Vector3f(limb.rest.bend).cast<double>();
     }
 
     void aim()
     {
         if (!from.aim) return;
-        plan.features &= ~SWIVEL_WITH_WEIGHTS;
+        setup.features &= ~SWIVEL_WITH_WEIGHTS;
         const Eigen::Vector3d axis = in_hand(from.aim->value.axis);
         std::array<float, 5> value;
         check(swivel_aim(axis.data(), kRadians * from.aim->value.flexion_deg, value.data()));
-        put(SWIVEL_AIM, value);
+        fix(SWIVEL_AIM, value);
     }
 
     void clavicle()
     {
         if (!from.clavicle_share) return;
-        plan.clavicle = limb.scale * formats::joint_at(clip, limb.upper()).offset;
-        put(SWIVEL_CLAVICLE, std::array{static_cast<float>(from.clavicle_share->value)});
+        put(limb.scale * formats::joint_at(clip, limb.upper()).offset, goals.shoulder_place);
+        fix(SWIVEL_CLAVICLE, std::array{static_cast<float>(from.clavicle_share->value)});
     }
 
     void weights()
     {
-        for (std::size_t n = 0; n < plan.weights.size(); ++n)
-            if (from.weights[n]) plan.weights[n] = static_cast<float>(from.weights[n]->value);
+        for (std::size_t n = 0; n < from.weights.size(); ++n)
+            if (from.weights[n]) goals.weights[n] = static_cast<float>(from.weights[n]->value);
     }
 
     void reach()
@@ -244,7 +216,7 @@ struct Planner {
         if (std::ranges::none_of(from.reach, [](const auto& given) { return given.has_value(); })) return;
         for (std::size_t n = 0; n < value.size(); ++n)
             if (from.reach[n]) value[n] = static_cast<float>(from.reach[n]->value);
-        put(SWIVEL_REACH, value);
+        fix(SWIVEL_REACH, value);
     }
 
     void swivel()
@@ -253,8 +225,8 @@ struct Planner {
         if (from.step_deg_per_frame) max_deg = from.step_deg_per_frame->value;
         if (from.step_deg_per_second) max_deg = std::min(180.0, clip.frame_time * from.step_deg_per_second->value);
         if (from.step_deg_per_frame || from.step_deg_per_second)
-            put(SWIVEL_MAX_SWIVEL, cos_sin(in_a_60th(kRadians * max_deg)));
-        if (from.step_wins && from.step_wins->value) plan.features |= SWIVEL_STEP_WINS;
+            fix(SWIVEL_MAX_SWIVEL, cos_sin(in_a_60th(kRadians * max_deg)));
+        if (from.step_wins && from.step_wins->value) setup.features |= SWIVEL_STEP_WINS;
     }
 
     // Converts a frame's step to SWIVEL_MAX_SWIVEL, a step for a 60th of a second: its half-tangent is proportional to
@@ -274,8 +246,8 @@ struct Planner {
             std::visit(limit, given->value);
             swivel_euler_order order = SWIVEL_XYZ;
             if (const auto* const box = std::get_if<formats::BoxLimit>(&given->value))
-                order = (info.is_of_hand ? plan.wrist_order : plan.shoulder_order) = order_of(*box);
-            put(info.field, limit.value, given->mirrored, order);
+                order = (info.is_of_hand ? setup.wrist_order : setup.shoulder_order) = order_of(*box);
+            fix(info.field, limit.value, given->mirrored, order);
         }
     }
 };
@@ -330,31 +302,26 @@ CrowdPlan plan_crowd(const CrowdFile* file, const formats::Clip& clip, std::span
 {
     CrowdPlan plan;
     plan.foot = foot_of(clip, clip.frame_count);
-    plan.limbs.resize(limbs.size());
+    std::ranges::transform(limbs, std::back_inserter(plan.limbs), following_setup);
     if (!file) return plan;
     require_solved(*file, limbs);
     if (file->characters) plan.characters = static_cast<std::uint32_t>(file->characters->value);
     if (file->seed) plan.seed = static_cast<std::uint64_t>(file->seed->value);
     if (file->spacing) plan.spacing = file->spacing->value;
-    if (file->size) plan.min_size = file->size->value.min, plan.max_size = file->size->value.max;
-    if (const auto& heading = file->heading_deg)
-        plan.min_heading_deg = heading->value.min, plan.max_heading_deg = heading->value.max;
+    if (file->size) plan.size = file->size->value;
+    if (file->heading_deg) plan.heading_deg = file->heading_deg->value;
     if (file->stagger) plan.stagger = file->stagger->value;
     if (file->budget_blocks) plan.budget_blocks = static_cast<std::uint32_t>(file->budget_blocks->value);
     for (std::size_t n = 0; n < limbs.size(); ++n) {
         const LimbSettings settings = settings_of(*file, limbs[n].name);
-        require_sense(*file, settings);
-        require_own_clavicle(*file, settings, clip, limbs[n]);
-        require_even_frames(*file, settings, clip);
-        const bool is_leg = limbs[n].name.kind == formats::LimbKind::leg;
-        if (file->ground && is_leg) require_can_stand(*file, settings);
-        if (file->carry && !is_leg) require_can_carry(*file, settings);
+        require_sense(*file, settings, clip, limbs[n]);
         Planner planner{settings, clip, limbs[n]};
-        if (file->carry && !is_leg) planner.plan.features &= ~SWIVEL_WITH_HAND;
+        if (file->carry && limbs[n].name.kind == formats::LimbKind::arm) planner.setup.features &= ~SWIVEL_WITH_HAND;
         planner.goal();
         if (settings.hold) {
-            planner.plan.features |= SWIVEL_WITH_LINK;
-            planner.plan.holds = std::ranges::find(limbs, settings.hold->value, &Limb::name) - limbs.begin();
+            const auto held = std::ranges::find(limbs, settings.hold->value, &Limb::name) - limbs.begin();
+            planner.setup.features |= SWIVEL_WITH_LINK;
+            planner.goals.holds = static_cast<std::uint32_t>(held + 1);
         }
         planner.pole();
         planner.aim();
@@ -364,31 +331,35 @@ CrowdPlan plan_crowd(const CrowdFile* file, const formats::Clip& clip, std::span
         planner.swivel();
         planner.limits();
         if (settings.region) {
-            planner.plan.features |= SWIVEL_WITH_REGION;
-            planner.plan.region = region_of(*file, *settings.region, clip, limbs[n]);
+            planner.setup.features |= SWIVEL_WITH_REGION;
+            planner.setup.region = region_of(*file, *settings.region, clip, limbs[n]);
         }
-        plan.limbs[n] = std::move(planner.plan);
+        plan.limbs[n] = std::move(planner.setup);
     }
     return plan;
 }
 
-std::vector<LimbSetup> limb_setups(std::span<const Limb> limbs, const CrowdPlan& plan)
+LimbSetup following_setup(const Limb& limb)
 {
-    std::vector<LimbSetup> setups;
-    for (std::size_t n = 0; n < limbs.size(); ++n) {
-        const LimbPlan& limb = plan.limbs[n];
-        setups.push_back({limbs[n].rest,
-                          limb.features,
-                          limb.shoulder_order,
-                          limb.wrist_order,
-                          limb.twist_bone_count,
-                          limb.fields,
-                          goal_plan_of(limb, limbs[n]),
-                          limb.region,
-                          limb.ground,
-                          limbs[n].mirrored,
-                          limb.pole_behind,
-                          {}});
+    LimbSetup setup;
+    setup.rest = limb.rest;
+    setup.mirrored = limb.mirrored;
+    setup.features = SWIVEL_WITH_HAND | SWIVEL_WITH_WEIGHTS | SWIVEL_WITH_RECORD;
+    put(limb.as_solved(limb.upper_bone), setup.goals.bones[0]);
+    put(limb.as_solved(limb.lower_bone), setup.goals.bones[1]);
+    std::ranges::fill(setup.goals.weights, 1.0f);
+    return setup;
+}
+
+std::vector<LimbSetup> limb_setups(const CrowdPlan& plan)
+{
+    std::vector<LimbSetup> setups = plan.limbs;
+    for (LimbSetup& setup : setups) {
+        goal_plan& goals = setup.goals;
+        goals.hand_is_local = setup.has(SWIVEL_WITH_AIM);
+        goals.goes_along = !goals.holds && !goals.has_target_point && Eigen::Vector3d(goals.target_offset).isZero(0) &&
+                           !setup.has(SWIVEL_WITH_PLANT | SWIVEL_WITH_AIM);
+        goals.clearance = setup.ground.toe_clearance;
     }
     if (plan.look) setups.push_back(plan.look->setup);
     return setups;

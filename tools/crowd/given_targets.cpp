@@ -53,9 +53,9 @@ GivenTargets::GivenTargets(const std::string& source, Between between, std::size
             refuse(fmt::format("the {} is not solved; name it with {} {}", plain_name(target.limb),
                                words_of(target.limb.kind).option, words_of(target.limb.kind).joints));
         if (limb == limbs.end()) continue;
-        if (const auto held = plan.limbs[static_cast<std::size_t>(limb - limbs.begin())].holds)
+        if (const auto holds = plan.limbs[static_cast<std::size_t>(limb - limbs.begin())].goals.holds)
             refuse(fmt::format("the {} holds the {}, so its target means nothing; leave its rows out",
-                               plain_name(target.limb), plain_name(limbs[*held].name)));
+                               plain_name(target.limb), plain_name(limbs[holds - 1].name)));
     }
     const std::uint32_t line = rows_.front().line;
     const std::string_view limbs_of_row = words_of(rows_.front().limb.kind).limbs;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// How a character is turned about y. Its heading is the tangent of a quarter of the angle: from it + - * / alone make a
-// quaternion, so all CPUs agree, and no angle from -180 to 180 degrees is out of range.
+// A character's turn about y. Its heading is the tangent of a quarter of the angle, from -1 at -180 degrees to 1 at
+// 180. Only + - * / make a quaternion of a heading, so all CPUs agree.
 #pragma once
 
 #include <cmath>
@@ -21,7 +21,11 @@ inline HalfTurn half_turn_of(const goal_character& who)
     return {2 * t / (1 + t2), (1 - t2) / (1 + t2)};
 }
 
-// The angle in degrees.
+// The heading of an angle, and the angle of a heading.
+inline float heading_of(double degrees)
+{
+    return static_cast<float>(std::tan(std::remainder(degrees, 360) * std::numbers::pi / 720));
+}
 inline float degrees_of(const goal_character& who)
 {
     return static_cast<float>(std::atan(double{who.heading}) * 720 / std::numbers::pi);

@@ -29,7 +29,7 @@ struct LimbSetup {
     swivel_euler_order shoulder_order = SWIVEL_XYZ, wrist_order = SWIVEL_XYZ;
     std::uint32_t twist_bone_count = 0;
     std::vector<FixedField> fields;
-    goal_plan goals;
+    goal_plan goals{};
     std::optional<swivel_region> region;             // with SWIVEL_WITH_REGION
     swivel_ground ground = swivel_default_ground();  // with SWIVEL_WITH_GROUND
     bool mirrored = false;                           // the joints' axes, as solved, have x turned over

@@ -33,24 +33,24 @@ unsigned thread_count()
     return max < has ? max : has;
 }
 
-void for_ranges(std::uint32_t count, RangeWork work)
+void for_ranges(std::uint32_t count, void (*call)(const void*, std::uint32_t, std::uint32_t), const void* work)
 {
     using Range = oneapi::tbb::blocked_range<std::uint32_t>;
     constexpr std::uint32_t piece = 256;
-    const auto on_range = [&](const Range& range) { work(range.begin(), range.end()); };
+    const auto on_range = [&](const Range& range) { call(work, range.begin(), range.end()); };
     if (count > piece && !is_one_thread())
         oneapi::tbb::parallel_for(Range(0, count, piece), on_range);
     else if (count > 0)
-        work(0, count);
+        call(work, 0, count);
 }
 #else
 struct ThreadControl {};
 
 unsigned thread_count() { return 1; }
 
-void for_ranges(std::uint32_t count, RangeWork work)
+void for_ranges(std::uint32_t count, void (*call)(const void*, std::uint32_t, std::uint32_t), const void* work)
 {
-    if (count > 0) work(0, count);
+    if (count > 0) call(work, 0, count);
 }
 #endif
 

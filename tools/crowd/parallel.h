@@ -13,25 +13,18 @@ unsigned thread_count();
 
 inline bool is_one_thread() { return thread_count() == 1; }
 
-// A function of a range, such as a lambda, which must outlive this. It takes no memory.
-class RangeWork {
-public:
-    template <class Work>
-    RangeWork(const Work& work)
-        : work_(&work), call_([](const void* closure, std::uint32_t begin, std::uint32_t end) {
-              (*static_cast<const Work*>(closure))(begin, end);
-          })
-    {
-    }
-    void operator()(std::uint32_t begin, std::uint32_t end) const { call_(work_, begin, end); }
-
-private:
-    const void* work_;
-    void (*call_)(const void*, std::uint32_t, std::uint32_t);
-};
-
-// Calls work(begin, end) for pieces of 0 ... count-1, on several threads at once. A single piece takes no oneTBB.
-void for_ranges(std::uint32_t count, RangeWork work);
+// Calls work(begin, end) for pieces of 0 ... count-1, on several threads at once. A single piece takes no oneTBB, and
+// no memory.
+void for_ranges(std::uint32_t count, void (*call)(const void* work, std::uint32_t begin, std::uint32_t end),
+                const void* work);
+template <class Work>
+void for_ranges(std::uint32_t count, const Work& work)
+{
+    const auto call = [](const void* any, std::uint32_t begin, std::uint32_t end) {
+        (*static_cast<const Work*>(any))(begin, end);
+    };
+    for_ranges(count, call, &work);
+}
 
 struct ThreadControl;  // oneTBB's
 

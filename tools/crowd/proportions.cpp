@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "tools/crowd/clip_parts.h"
 #include "tools/rig/limb_joints.h"
 #include "tools/rig/vectors.h"
 
@@ -21,8 +22,7 @@ void scale_bones(const Clip& clip, int top, int joint, double factor, std::vecto
 {
     do {
         joint = joint_at(clip, joint).parent;
-        for (std::size_t n = 0; n < clip.joints.size(); ++n)
-            if (clip.joints[n].parent == joint) factors[n] = factor;
+        for (const int child : child_joints(clip, joint)) factors[static_cast<std::size_t>(child)] = factor;
     } while (joint != top);
 }
 
@@ -38,8 +38,7 @@ std::vector<double> factors_of(const Clip& clip, const std::vector<BodyPart>& bo
         const std::vector<int> spine = joints_of(body, "spine");
         factors[static_cast<std::size_t>(spine.front())] = to.spine;
         for (const int joint : spine)
-            for (std::size_t n = 0; n < clip.joints.size(); ++n)
-                if (clip.joints[n].parent == joint) factors[n] = to.spine;
+            for (const int child : child_joints(clip, joint)) factors[static_cast<std::size_t>(child)] = to.spine;
     }
     for (const std::string side : {"left", "right"}) {
         scale_limb(side + "UpperLeg", side + "Foot", to.legs);
@@ -72,8 +71,8 @@ LegsWay legs_way(const Clip& clip, const std::vector<BodyPart>& body, std::span<
         return std::array{joints_of(body, "left" + name).front(), joints_of(body, "right" + name).front()};
     };
     const std::array upper = both("UpperLeg"), feet = both("Foot");
-    way.root = way.hips = joints_of(body, "hips").front();
-    while (joint_at(clip, way.root).parent >= 0) way.root = joint_at(clip, way.root).parent;
+    way.hips = joints_of(body, "hips").front();
+    way.root = root_of(clip, way.hips);
     std::vector<JointPose> pose_w(clip.joints.size());
     std::vector<double> lower;
     for (std::size_t frame = 0; frame < clip.frame_count; ++frame) {
@@ -110,8 +109,7 @@ Clip proportioned(const Clip& clip, const std::vector<BodyPart>& body, std::span
     std::vector<std::vector<double>> factors;
     for (const Proportions& build : builds) factors.push_back(factors_of(clip, body, build));
     const LegsWay legs = legs_way(clip, body, builds);
-    Clip all = clip;
-    all.rotation.clear(), all.translation.clear(), all.scale.clear();
+    Clip all = frames_of(clip, {});
     all.track_count = 0, all.frame_count = builds.size() * clip.frame_count;
     for (std::size_t n = 0; n < joints; ++n) {
         const bool carries = static_cast<int>(n) == legs.root || static_cast<int>(n) == legs.hips;

@@ -99,17 +99,10 @@ struct LimbStatistics {
     }
     void add(const LimbStatistics& other)
     {
-        reached.add(other.reached);
-        missed.add(other.missed);
-        aimed.add(other.aimed);
-        aim_missed.add(other.aim_missed);
-        orientation.add(other.orientation);
-        given.add(other.given);
-        bent.add(other.bent);
-        straight.add(other.straight);
-        upper_swing.add(other.upper_swing);
-        upper_twist.add(other.upper_twist);
-        lower.add(other.lower);
+        using S = LimbStatistics;
+        for (const auto error : {&S::reached, &S::missed, &S::aimed, &S::aim_missed, &S::orientation, &S::given,
+                                 &S::bent, &S::straight, &S::upper_swing, &S::upper_twist, &S::lower})
+            (this->*error).add(other.*error);
         for (std::size_t bit = 0; bit < flags.size(); ++bit) flags[bit].add(other.flags[bit]);
         limb_count += other.limb_count;
         unreached += other.unreached;

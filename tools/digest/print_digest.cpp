@@ -5,10 +5,10 @@
 // With `start`, does the same with the standing part's start. With `stacks`, the bits must stay wherever the stack is.
 // With `golden`, prints the numbers of tools/corpus/golden.h instead.
 #include <cstdio>
-#include <cstring>
 #include <initializer_list>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 #include "tools/corpus/corpus.h"
 
@@ -78,14 +78,14 @@ void print_each(std::initializer_list<std::size_t> places, Frames frames = Frame
 int main(int argc, char** argv)
 {
     try {
-        const char* const what = argc == 2 ? argv[1] : "";
-        if (std::strcmp(what, "golden") == 0)
+        const std::string_view what = argc == 2 ? argv[1] : "";
+        if (what == "golden")
             print_golden();
-        else if (std::strcmp(what, "each") == 0)
+        else if (what == "each")
             print_each({16});
-        else if (std::strcmp(what, "start") == 0)
+        else if (what == "start")
             print_each({16}, Frames::start);
-        else if (std::strcmp(what, "stacks") == 0)
+        else if (what == "stacks")
             print_each({16, 32, 48, 64});
         else
             std::printf("%s%s\n", swivel_isa_name(), digests(Frames::all).c_str());

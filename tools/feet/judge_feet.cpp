@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tools/rig/vectors.h"
-
 namespace swivel::tools {
 
 namespace {
@@ -14,13 +12,6 @@ using Eigen::Vector3d;
 using Kind = FeetDoubt::Kind;
 
 constexpr double kOffGround = 0.012, kWorse = 2, kKneeSpeed = 720, kToeJump = 60, kBodyJump = 30;
-
-Peak knee_peak(const LegPath& leg)
-{
-    Peak peak;
-    for (std::size_t frame = 1; frame < leg.toe_w.size(); ++frame) peak.raise(frame, knee_turn_deg(leg, frame));
-    return peak;
-}
 
 // In leg lengths a second.
 Peak jump_peak(const LegMotion& motion, std::span<const Vector3d> places_w)
@@ -31,21 +22,7 @@ Peak jump_peak(const LegMotion& motion, std::span<const Vector3d> places_w)
     return peak;
 }
 
-void add_off_ground(const LegMotion& after, const LegMotion& before, std::size_t leg, const Contact& contact,
-                    const ContactBars& bars, const Floor& floor, std::vector<FeetDoubt>& doubts)
-{
-    const double height = stand_height(before, before.legs[leg], contact, bars, floor);
-    const std::vector<Vector3d>& toe_w = after.legs[leg].toe_w;
-    Peak peak;
-    for (std::size_t frame = contact.first; frame < contact.end; ++frame)
-        peak.raise(frame, std::abs(floor.over(toe_w[frame]) - height) / after.leg_length());
-    if (peak.value > kOffGround)
-        doubts.push_back({Kind::off_ground, leg, contact.first, contact.end - 1, peak.value, 0, toe_w[peak.frame]});
-}
-
 }  // namespace
-
-using Eigen::Vector3d;
 
 double bend_deg(const LegPath& leg, std::size_t frame)
 {
@@ -105,9 +82,18 @@ std::vector<FeetDoubt> feet_doubts(const LegMotion& after, const LegMotion& befo
     };
     for (std::size_t n = 0; n < after.legs.size(); ++n) {
         const LegPath& leg = after.legs[n];
-        for (const Contact& contact : contacts_of(contacts[n]))
-            add_off_ground(after, before, n, contact, bars, floor, doubts);
-        judge(Kind::knee, n, knee_peak(leg), skating.knee_deg, kKneeSpeed, leg.toe_w);
+        for (const Contact& contact : contacts_of(contacts[n])) {
+            const double height = stand_height(before, before.legs[n], contact, bars, floor);
+            Peak off;
+            for (std::size_t frame = contact.first; frame < contact.end; ++frame)
+                off.raise(frame, std::abs(floor.over(leg.toe_w[frame]) - height) / after.leg_length());
+            if (off.value > kOffGround)
+                doubts.push_back(
+                    {Kind::off_ground, n, contact.first, contact.end - 1, off.value, 0, leg.toe_w[off.frame]});
+        }
+        Peak knee;
+        for (std::size_t frame = 1; frame < leg.toe_w.size(); ++frame) knee.raise(frame, knee_turn_deg(leg, frame));
+        judge(Kind::knee, n, knee, skating.knee_deg, kKneeSpeed, leg.toe_w);
         judge(Kind::toe_jump, n, jump_peak(after, leg.toe_w), skating.jump, kToeJump, leg.toe_w);
     }
     judge(Kind::body_jump, after.legs.size(), jump_peak(after, after.carrier_w), skating.body_jump, kBodyJump,

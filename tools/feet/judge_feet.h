@@ -6,19 +6,9 @@
 
 #include "tools/feet/contacts.h"
 #include "tools/feet/place_feet.h"
+#include "tools/rig/vectors.h"
 
 namespace swivel::tools {
-
-// The largest value, and its frame.
-struct Peak {
-    std::size_t frame = 0;
-    double value = 0;
-
-    void raise(std::size_t at, double to)
-    {
-        if (to > value) *this = {at, to};
-    }
-};
 
 // How much feet skate, and the cost of preventing it. Lengths are in leg lengths.
 struct Skating {
@@ -35,7 +25,7 @@ struct Skating {
 
 // How far the knee is bent, in degrees.
 double bend_deg(const LegPath& leg, std::size_t frame);
-// How far it turns from the frame before.
+// How far the knee turns from the frame before, in degrees.
 double knee_turn_deg(const LegPath& leg, std::size_t frame);
 
 Skating skating_of(const LegMotion& motion, const Contacts& contacts, const Floor& floor);

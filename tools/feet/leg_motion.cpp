@@ -72,8 +72,8 @@ double largest_jump(std::span<const Vector3d> places_w)
 
 int toe_of(const Clip& clip, const Limb& leg)
 {
-    const std::vector<int> toes = toes_of(clip, leg.name.side, leg.end());
-    return toes.empty() ? leg.end() : toes.front();
+    const int toe = toe_of(clip, leg.name.side, leg.end());
+    return toe < 0 ? leg.end() : toe;
 }
 
 int carrier_of(const Clip& clip, const FigureJoints& figure)

@@ -148,14 +148,7 @@ public:
     }
 
 private:
-    Sum new_unknown()
-    {
-        Sum sum;
-        sum.unknown[0] = unknown_count_++;
-        sum.factor[0] = 1;
-        sum.count = 1;
-        return sum;
-    }
+    Sum new_unknown() { return {{unknown_count_++}, {1}, 1}; }
 
     void add_leg(const LegPath& path, const std::vector<Vector3d>& move_w, const std::vector<bool>& contact,
                  const ContactBars& bars)

@@ -149,24 +149,25 @@ LegsInClips legs_in_clips(const formats::CrowdFile& file, const formats::Clip& c
 
 // Makes a leg stand on its toe, unless the file gives it an effector, at the heights that the clip has over its floor.
 void plan_leg(const formats::Clip& clip, const Limb& leg, const LegPath& path, const std::vector<bool>& contact,
-              double floor, LimbPlan& plan)
+              double floor, LimbSetup& setup)
 {
-    if (!plan.has(SWIVEL_WITH_EFFECTOR)) {
-        plan.effector = toe_in_ankle(clip, leg, path);
+    Vector3d toe(setup.goals.effector);
+    if (!setup.has(SWIVEL_WITH_EFFECTOR)) {
+        toe = toe_in_ankle(clip, leg, path);
+        put(toe, setup.goals.effector);
         FixedField effector{SWIVEL_EFFECTOR, {}};
-        std::ranges::copy(plan.effector.cast<float>(), effector.value.begin());
-        plan.fields.push_back(effector);
+        std::ranges::copy(toe.cast<float>(), effector.value.begin());
+        setup.fields.push_back(effector);
     }
-    plan.features |= SWIVEL_WITH_EFFECTOR | SWIVEL_WITH_PLANT | SWIVEL_WITH_GROUND | SWIVEL_WITH_CAP |
-                     SWIVEL_WITH_PELVIS_FIT | SWIVEL_HAND_YIELDS;
-    plan.fields.push_back(kCap);
-    plan.contact = contact;
+    setup.features |= SWIVEL_WITH_EFFECTOR | SWIVEL_WITH_PLANT | SWIVEL_WITH_GROUND | SWIVEL_WITH_CAP |
+                      SWIVEL_WITH_PELVIS_FIT | SWIVEL_HAND_YIELDS;
+    setup.fields.push_back(kCap);
     const auto clearance = [&](const Vector3d& point, double share) {
         const std::optional<double> height = height_down(clip, leg.end(), point, contact, share);
         return height ? static_cast<float>(std::max(0.0, *height - floor)) : 0;
     };
-    plan.ground.toe_clearance = clearance(plan.effector, 0.5);
-    plan.ground.heel_clearance = clearance(Vector3d::Zero(), 0.02);
+    setup.ground.toe_clearance = clearance(toe, 0.5);
+    setup.ground.heel_clearance = clearance(Vector3d::Zero(), 0.02);
 }
 
 }  // namespace
@@ -180,9 +181,11 @@ void stand_on_ground(const formats::CrowdFile& file, const formats::Clip& clip, 
     plan.foot.y() = floor_of(clip, parts[0].count);  // all others are put on the same floor
     const LegsInClips in_clips = legs_in_clips(file, clip, legs, parts, figure, frames);
     std::size_t leg = 0;
+    plan.contacts.resize(limbs.size());
     for (std::size_t n = 0; n < limbs.size(); ++n) {
         if (limbs[n].name.kind != formats::LimbKind::leg) continue;
-        plan_leg(clip, limbs[n], in_clips.motion.legs[leg], in_clips.contacts[leg], plan.foot.y(), plan.limbs[n]);
+        plan.contacts[n] = in_clips.contacts[leg];
+        plan_leg(clip, limbs[n], in_clips.motion.legs[leg], plan.contacts[n], plan.foot.y(), plan.limbs[n]);
         ++leg;
     }
     plan.shift_wish = -kLower * in_clips.motion.leg_length();

@@ -10,62 +10,57 @@
 #include "swivel/swivel_bodies.hpp"
 #include "tools/formats/error.h"
 #include "tools/rig/limb_words.h"
+#include "tools/rig/vectors.h"
 
 namespace swivel::tools {
 
 namespace {
 
-using Eigen::Quaternionf;
+using Eigen::Quaterniond;
 using Eigen::Vector3d;
-using Eigen::Vector3f;
 using formats::Clip;
 using formats::joint_at;
 
 // x, y, z, w
 std::array<float, 4> floats(const Eigen::Quaterniond& q)
 {
-    const Quaternionf single = q.cast<float>();
-    return {single.x(), single.y(), single.z(), single.w()};
+    std::array<float, 4> numbers;
+    put(q.coeffs(), numbers);
+    return numbers;
 }
 std::array<float, 3> floats(const Vector3d& v)
 {
-    const Vector3f single = v.cast<float>();
-    return {single.x(), single.y(), single.z()};
+    std::array<float, 3> numbers;
+    put(v, numbers);
+    return numbers;
 }
 
-// A clip's skeleton at rest, as the library takes it.
-struct Skeleton {
+// A crowd of the clip's skeleton, with a body for each frame.
+Crowd crowd_of(const Clip& clip, std::span<const Limb> legs)
+{
     std::vector<std::int32_t> parents;
     std::vector<std::array<float, 4>> rotations;
     std::vector<std::array<float, 3>> translations;
-    std::vector<swivel_limb_joints> limbs;
-
-    Skeleton(const Clip& clip, std::span<const Limb> legs)
-    {
-        for (const formats::Joint& joint : clip.joints) {
-            parents.push_back(joint.parent);
-            rotations.push_back(floats(joint.rest_rotation));
-            translations.push_back(floats(joint.offset));
-        }
-        for (const Limb& leg : legs) {
-            const auto number = [&](std::size_t n) { return static_cast<std::uint32_t>(leg.joints[n]); };
-            limbs.push_back(swivel_default_limb_joints(number(0), number(1), number(2)));
-            std::ranges::copy(floats(leg.bend), limbs.back().bend);
-        }
+    for (const formats::Joint& joint : clip.joints) {
+        parents.push_back(joint.parent);
+        rotations.push_back(floats(joint.rest_rotation));
+        translations.push_back(floats(joint.offset));
     }
-    Crowd crowd(std::size_t body_count) const
-    {
-        swivel_skeleton skeleton = swivel_default_skeleton();
-        skeleton.parents = stream(parents);
-        skeleton.rotations = {rotations.data(), sizeof rotations[0]};
-        skeleton.translations = {translations.data(), sizeof translations[0]};
-        skeleton.joint_count = static_cast<std::uint32_t>(parents.size());
-        std::vector<Definition> groups;
-        for (const swivel_limb_joints& limb : limbs)
-            groups.emplace_back(body_limb(limb, SWIVEL_POLE_INCOMING | SWIVEL_WITH_HAND));
-        return Crowd(skeleton, static_cast<std::uint32_t>(body_count), groups);
+    swivel_skeleton skeleton = swivel_default_skeleton();
+    skeleton.parents = stream(parents);
+    skeleton.rotations = {rotations.data(), sizeof rotations[0]};
+    skeleton.translations = {translations.data(), sizeof translations[0]};
+    skeleton.joint_count = static_cast<std::uint32_t>(parents.size());
+    std::vector<swivel_limb_joints> joints(legs.size());
+    std::vector<Definition> groups;
+    for (std::size_t leg = 0; leg < legs.size(); ++leg) {
+        const auto number = [&](std::size_t n) { return static_cast<std::uint32_t>(legs[leg].joints[n]); };
+        joints[leg] = swivel_default_limb_joints(number(0), number(1), number(2));
+        std::ranges::copy(floats(legs[leg].bend), joints[leg].bend);
+        groups.emplace_back(body_limb(joints[leg], SWIVEL_POLE_INCOMING | SWIVEL_WITH_HAND));
     }
-};
+    return Crowd(skeleton, static_cast<std::uint32_t>(clip.frame_count), groups);
+}
 
 // All frames of a clip as poses, each relative to its own root's place, so that floats suffice wherever the clip goes.
 struct Poses {
@@ -80,14 +75,11 @@ struct Poses {
         for (std::size_t frame = 0; frame < clip.frame_count; ++frame) {
             origins_w.push_back(formats::local_translation(clip, frame, top));
             for (std::size_t joint = 0; joint < joint_count; ++joint) {
-                const formats::Joint& at = clip.joints[joint];
                 const Vector3d place = formats::local_translation(clip, frame, joint);
                 rotations.push_back(floats(clip.rotation[frame * joint_count + joint]));
-                translations.push_back(floats(at.parent < 0 ? Vector3d(place - origins_w.back()) : place));
-                scales.push_back(floats(
-                    at.scale_track < 0
-                        ? at.rest_scale
-                        : clip.scale[frame * clip.scale_track_count + static_cast<std::size_t>(at.scale_track)]));
+                translations.push_back(
+                    floats(clip.joints[joint].parent < 0 ? Vector3d(place - origins_w.back()) : place));
+                scales.push_back(floats(formats::local_scale(clip, frame, joint)));
             }
         }
     }
@@ -108,12 +100,6 @@ private:
     }
 };
 
-int root_of(const Clip& clip, int joint)
-{
-    while (joint_at(clip, joint).parent >= 0) joint = joint_at(clip, joint).parent;
-    return joint;
-}
-
 // The carrier's place against its parent, moved by the body's shift.
 TurnedJoint moved_carrier(const Clip& clip, int carrier, const PlacedFeet& placed)
 {
@@ -131,8 +117,6 @@ TurnedJoint moved_carrier(const Clip& clip, int carrier, const PlacedFeet& place
     }
     return moved;
 }
-
-using Eigen::Quaterniond;
 
 constexpr double kBendSpeed = 2 * std::numbers::pi;  // radians a second
 
@@ -159,10 +143,7 @@ std::vector<double> bends_of(const LegPath& leg, const std::vector<Quaterniond>&
         bends.push_back(bend_to(leg.tip_w[frame] - leg.toe_w[frame], leg.across_w[frame], turn_w[frame] * motion.up_w,
                                 leg.tip_rise - std::max(floor.over(leg.toe_w[frame]), 0.0)));
     // Those that come and go in a frame begin earlier and end later.
-    const double step = kBendSpeed * motion.frame_time;
-    for (std::size_t n = 1; n < bends.size(); ++n) bends[n] = std::max(bends[n], bends[n - 1] - step);
-    for (std::size_t n = bends.size(); n-- > 1;) bends[n - 1] = std::max(bends[n - 1], bends[n] - step);
-    return bends;
+    return course_above(std::move(bends), kBendSpeed * motion.frame_time);
 }
 
 // A joint's local rotation after a turn of the world.
@@ -209,7 +190,7 @@ std::vector<TurnedJoint> turn_legs(const Clip& clip, std::span<const Limb> legs,
     std::vector<TurnedJoint> joints{moved_carrier(clip, motion.carrier, placed)};
     const Clip moved = with_joints(clip, joints);
     Poses poses(moved, root_of(clip, legs.front().upper()));
-    Crowd crowd = Skeleton(clip, legs).crowd(clip.frame_count);
+    Crowd crowd = crowd_of(clip, legs);
     std::vector<std::vector<std::array<float, 3>>> targets(legs.size());
     std::vector<std::vector<std::array<float, 4>>> feet(legs.size());
     std::vector<formats::JointPose> pose_w(clip.joints.size());

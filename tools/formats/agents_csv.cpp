@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <string_view>
 
 #include "tools/formats/csv_rows.h"
 #include "tools/formats/error.h"
+#include "tools/formats/limits.h"
 #include "tools/formats/printable.h"
 #include "tools/formats/suggestion.h"
 #include "tools/formats/text.h"
@@ -23,11 +25,10 @@ struct Column {
     double min, max;
     bool is_whole, is_needed;
 };
-constexpr double kMaxPlace = 1e15;  // as swivel.h has it
 constexpr Column kColumns[] = {{"name", nullptr, 0, 0, false, true},
-                               {"x", &Agent::x, -kMaxPlace, kMaxPlace, false, true},
-                               {"y", &Agent::y, -kMaxPlace, kMaxPlace, false, true},
-                               {"z", &Agent::z, -kMaxPlace, kMaxPlace, false, true},
+                               {"x", &Agent::x, -kMaxNorm, kMaxNorm, false, true},
+                               {"y", &Agent::y, -kMaxNorm, kMaxNorm, false, true},
+                               {"z", &Agent::z, -kMaxNorm, kMaxNorm, false, true},
                                {"heading_deg", &Agent::heading_deg, -360, 360, false, false},
                                {"start", &Agent::start, 0, 1e9, true, false},
                                {"clip", &Agent::clip, 0, 1e9, true, false},
@@ -39,7 +40,8 @@ std::string take(const Column& column, std::string_view cell, Agent& agent)
 {
     if (!column.number) {
         agent.name = cell;
-        const bool is_name = !cell.empty() && cell.find_first_of(",\"") == cell.npos && printable(cell) == cell;
+        const bool is_name =
+            !cell.empty() && cell.find_first_of(",\"") == cell.npos && printable(cell, cell.npos) == cell;
         return is_name ? "" : "is no name; give one without commas and quotes";
     }
     const std::optional<double> number = parse_number(cell);
@@ -55,23 +57,21 @@ std::string take(const Column& column, std::string_view cell, Agent& agent)
 std::vector<Column> columns_of(const std::filesystem::path& path, std::size_t line,
                                const std::vector<std::string_view>& cells)
 {
+    const auto refuse = [&](const std::string& cause) { throw InputError(path, line, cause); };
+    std::vector<std::string> known;
+    for (const Column& each : kColumns) known.emplace_back(each.name);
     std::vector<Column> columns;
     for (const std::string_view cell : cells) {
         const auto found = std::ranges::find(kColumns, cell, &Column::name);
-        if (found == std::end(kColumns)) {
-            std::vector<std::string> names;
-            for (const Column& each : kColumns) names.emplace_back(each.name);
-            throw InputError(
-                path, line,
-                fmt::format("there is no column '{}'; {}", printable(cell), suggestion(std::string(cell), names)));
-        }
+        if (found == std::end(kColumns))
+            refuse(fmt::format("there is no column '{}'; {}", printable(cell), suggestion(cell, known)));
         columns.push_back(*found);
     }
     for (const Column& each : kColumns) {
         const auto count = std::ranges::count(cells, each.name);
-        if (count > 1) throw InputError(path, line, fmt::format("column {} is there twice; remove one", each.name));
+        if (count > 1) refuse(fmt::format("column {} is there twice; remove one", each.name));
         if (count == 0 && each.is_needed)
-            throw InputError(path, line, fmt::format("has no column {}; the first line names the columns", each.name));
+            refuse(fmt::format("has no column {}; the first line names the columns", each.name));
     }
     return columns;
 }
@@ -84,23 +84,21 @@ std::vector<Agent> read_agents_csv(const std::filesystem::path& path)
     std::vector<Column> columns;
     std::map<std::string, std::size_t> lines;  // of each name
     for_each_row(path, [&](std::size_t line, const std::vector<std::string_view>& cells) {
+        const auto refuse = [&](const std::string& cause) { throw InputError(path, line, cause); };
         if (columns.empty()) {
             columns = columns_of(path, line, cells);
             return;
         }
         if (cells.size() != columns.size())
-            throw InputError(path, line, fmt::format("{} values; a row has {}", cells.size(), columns.size()));
+            refuse(fmt::format("{} values; a row has {}", cells.size(), columns.size()));
         Agent& agent = agents.emplace_back();
         agent.line = line;
         for (std::size_t n = 0; n < cells.size(); ++n)
             if (const std::string problem = take(columns[n], cells[n], agent); !problem.empty())
-                throw InputError(path, line,
-                                 fmt::format("column {}: '{}' {}", columns[n].name, printable(cells[n]), problem));
+                refuse(fmt::format("column {}: '{}' {}", columns[n].name, printable(cells[n]), problem));
         const auto [other, is_new] = lines.emplace(agent.name, line);
         if (!is_new)
-            throw InputError(
-                path, line,
-                fmt::format("the name '{}' is already in line {}; give another", agent.name, other->second));
+            refuse(fmt::format("the name '{}' is already in line {}; give another", agent.name, other->second));
     });
     if (agents.empty()) throw InputError(path, "has no agents; write a line of columns and a row for each");
     return agents;

@@ -71,12 +71,6 @@ BvhFile bvh_of(const std::filesystem::path& path, std::string text);
 // other values go evenly, angles the shorter way around. Throws InputError for a text of more than 2 GiB.
 BvhFile at_rate(const BvhFile& file, double rate);
 
-// The file with a joint of six channels, all 0, put above one: see NewJoint. Lines beyond those announced are left out.
-BvhFile with_joint_above(const BvhFile& file, int joint, std::string_view name);
-
-// A value of a frame's line, with nine decimals; of a degree they are 9e-12 rad.
-std::string value_text(double value);
-
 // Whether a text starts like a BVH file.
 bool is_bvh_text(std::string_view text);
 
@@ -89,8 +83,8 @@ void require_can_key(const BvhFile& file, int joint);
 // the one nearest to the frame before, the first to the file's own, or to 0 in new frames. path: may be the file that
 // was read. It appears whole or not at all (see OutputFile). Throws InputError when a joint with new rotations lacks
 // three rotation channels about three different axes, one with new translations a position channel of each axis, or on
-// writing. Throws std::invalid_argument as require_keys() does. Allocates a few bytes a channel; with a new joint the
-// whole file again.
+// writing. Throws std::invalid_argument as require_keys() does. Allocates a few bytes a channel. With a new joint it
+// allocates the whole file again, and leaves out lines beyond those announced.
 void write_bvh(const std::filesystem::path& path, const BvhFile& file, std::span<const JointKeys> keys,
                const std::optional<NewFrames>& frames = {}, const std::optional<NewJoint>& above = {});
 

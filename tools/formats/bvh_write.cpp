@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
+// A BVH file's text made anew: with new keys, with one more joint, or at another rate.
 #include "tools/formats/bvh.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <string_view>
 
 #include "tools/formats/error.h"
@@ -17,7 +17,8 @@
 namespace swivel::formats {
 namespace {
 
-constexpr int kKept = -1;
+constexpr double kMaxTextBytes = 0x1p31;  // of a text, as readers have it
+constexpr double kValueBytes = 12;        // of a value of nine decimals and a blank, at least
 
 // One joint's keys, to be written into the text.
 struct Track {
@@ -29,9 +30,8 @@ struct Track {
 
 struct Plan {
     std::vector<Track> tracks;
-    std::vector<int> slot;  // per channel of a line: kSlots * track and then angle 0 to 2 or place 3 to 5, or kKept
+    std::vector<double*> values;  // per channel of a line: its new value, in a track; null: the channel keeps its text
 };
-constexpr int kSlots = 6;
 
 [[noreturn]] void refuse(const BvhFile& file, int joint, std::string_view what, std::string_view cause)
 {
@@ -44,76 +44,74 @@ constexpr int kSlots = 6;
                     name, what, cause));
 }
 
-// In the order of the joint's rotation channels.
-EulerAxes axes_of(const BvhFile& file, int joint)
+// The axes of a joint's rotation channels, in their order.
+std::vector<int> rotation_axes(const BvhJoint& joint)
 {
-    const BvhJoint& at = file.joints[static_cast<std::size_t>(joint)];
-    const auto require = [&](bool is_met, std::string_view cause) {
-        if (!is_met) refuse(file, joint, "rotation", cause);
-    };
-    EulerAxes axes{};
-    int count = 0;
-    for (const Channel channel : at.channels) {
-        if (is_position(channel)) continue;
-        require(count < 3, "it has more than three rotation channels");
-        axes[static_cast<std::size_t>(count++)] = axis_of(channel);
-    }
-    require(count == 3, "it has fewer than three rotation channels");
-    require(axes[0] != axes[1] && axes[1] != axes[2] && axes[0] != axes[2], "its rotation channels repeat an axis");
+    std::vector<int> axes;
+    for (const Channel channel : joint.channels)
+        if (!is_position(channel)) axes.push_back(axis_of(channel));
     return axes;
 }
 
-// Plans the joint's rotation channels as the track's angles.
-void claim_angles(const BvhFile& file, int joint, int first_slot, Plan& plan)
+bool are_different(const std::vector<int>& axes)
 {
-    const BvhJoint& at = file.joints[static_cast<std::size_t>(joint)];
-    int angle = 0;
-    for (std::size_t c = 0; c < at.channels.size(); ++c)
-        if (!is_position(at.channels[c])) plan.slot[at.first_channel + c] = first_slot + angle++;
+    return axes[0] != axes[1] && axes[1] != axes[2] && axes[0] != axes[2];
 }
 
-// The same of its position channels.
-void claim_places(const BvhFile& file, int joint, int first_slot, Plan& plan)
+EulerAxes axes_of(const BvhFile& file, int joint)
+{
+    const std::vector<int> axes = rotation_axes(file.joints[static_cast<std::size_t>(joint)]);
+    if (axes.size() > 3) refuse(file, joint, "rotation", "it has more than three rotation channels");
+    if (axes.size() < 3) refuse(file, joint, "rotation", "it has fewer than three rotation channels");
+    if (!are_different(axes)) refuse(file, joint, "rotation", "its rotation channels repeat an axis");
+    return {axes[0], axes[1], axes[2]};
+}
+
+void require_positions(const BvhFile& file, int joint)
 {
     const BvhJoint& at = file.joints[static_cast<std::size_t>(joint)];
     for (const Channel axis : {Channel::Xposition, Channel::Yposition, Channel::Zposition})
         if (std::ranges::find(at.channels, axis) == at.channels.end())
             refuse(file, joint, "position", "it has fewer than three position channels");
-    for (std::size_t c = 0; c < at.channels.size(); ++c)
-        if (is_position(at.channels[c])) plan.slot[at.first_channel + c] = first_slot + 3 + axis_of(at.channels[c]);
 }
 
 Plan make_plan(const BvhFile& file, std::span<const JointKeys> keys)
 {
     Plan plan;
-    plan.slot.assign(file.channel_count, kKept);
+    plan.values.resize(file.channel_count);
+    plan.tracks.reserve(keys.size());  // so that they stay where their values point
     for (const JointKeys& each : keys) {
-        const int first_slot = kSlots * static_cast<int>(plan.tracks.size());
-        Track track{each};
-        if (!each.rotation.empty()) {
-            track.axes = axes_of(file, each.joint);
-            claim_angles(file, each.joint, first_slot, plan);
+        Track& track = plan.tracks.emplace_back(Track{each});
+        if (!each.rotation.empty()) track.axes = axes_of(file, each.joint);
+        if (!each.translation.empty()) require_positions(file, each.joint);
+        const BvhJoint& joint = file.joints[static_cast<std::size_t>(each.joint)];
+        int angle = 0;
+        for (std::size_t c = 0; c < joint.channels.size(); ++c) {
+            double*& value = plan.values[joint.first_channel + c];
+            if (is_position(joint.channels[c]))
+                value = each.translation.empty() ? nullptr : &track.place[axis_of(joint.channels[c])];
+            else
+                value = each.rotation.empty() ? nullptr : &track.angle_deg[angle++];
         }
-        if (!each.translation.empty()) claim_places(file, each.joint, first_slot, plan);
-        plan.tracks.push_back(track);
     }
     return plan;
 }
 
-double& value_of(Plan& plan, int slot)
+// The values of a frame's line, which the reader has checked.
+std::vector<double> values_of(const BvhFile& file, std::size_t frame)
 {
-    Track& track = plan.tracks[static_cast<std::size_t>(slot / kSlots)];
-    return slot % kSlots < 3 ? track.angle_deg[slot % kSlots] : track.place[slot % kSlots - 3];
+    std::string_view rest = std::string_view(file.text).substr(file.frame_begin[frame]);
+    std::vector<double> values;
+    while (values.size() < file.channel_count) values.push_back(parse_number(take_word(rest)).value());
+    return values;
 }
 
-// The file's own angles in its first frame, which the reader has checked.
+// The file's own angles in its first frame.
 void start_from_file(const BvhFile& file, Plan& plan)
 {
-    std::string_view rest = std::string_view(file.text).substr(file.frame_begin.front());
-    for (const int slot : plan.slot) {
-        const std::string_view word = take_word(rest);
-        if (slot != kKept) value_of(plan, slot) = parse_number(word).value();
-    }
+    const std::vector<double> values = values_of(file, 0);
+    for (std::size_t n = 0; n < values.size(); ++n)
+        if (plan.values[n]) *plan.values[n] = values[n];
 }
 
 void take_frame(Plan& plan, std::size_t frame)
@@ -125,17 +123,30 @@ void take_frame(Plan& plan, std::size_t frame)
     }
 }
 
+// A value of a frame's line, with nine decimals; of a degree they are 9e-12 rad.
+std::string value_text(double value)
+{
+    const double shown = std::abs(value) < 5e-10 ? 0.0 : value;  // no "-0.000000000"
+    return fmt::format("{:.9f}", shown);
+}
+
+// The lines after MOTION.
+std::string frames_text(std::size_t count, double frame_time)
+{
+    return fmt::format("\nFrames: {}\nFrame Time: {}\n", count, frame_time);
+}
+
 // Writes the text from `done` through the last new value of the frame at `begin`, and copies the text between new
 // values.
-std::size_t write_frame(OutputFile& out, std::string_view text, std::size_t begin, std::size_t done, Plan& plan)
+std::size_t write_frame(OutputFile& out, std::string_view text, std::size_t begin, std::size_t done, const Plan& plan)
 {
     std::string_view rest = text.substr(begin);
-    for (const int slot : plan.slot) {
+    for (const double* const value : plan.values) {
         const std::string_view word = take_word(rest);
-        if (slot == kKept) continue;
+        if (!value) continue;
         const auto word_begin = static_cast<std::size_t>(word.data() - text.data());
         out.write(text.substr(done, word_begin - done));
-        out.write(value_text(value_of(plan, slot)));
+        out.write(value_text(*value));
         done = word_begin + word.size();
     }
     return done;
@@ -168,7 +179,7 @@ std::string rest_line(const BvhFile& file)
 void write_new_frames(OutputFile& out, const BvhFile& file, const NewFrames& frames, Plan& plan)
 {
     out.write(std::string_view(file.text).substr(0, file.motion_begin));
-    out.write(fmt::format("\nFrames: {}\nFrame Time: {}\n", frames.count, frames.frame_time));
+    out.write(frames_text(frames.count, frames.frame_time));
     const std::string line = rest_line(file);
     for (std::size_t frame = 0; frame < frames.count; ++frame) {
         take_frame(plan, frame);
@@ -177,12 +188,79 @@ void write_new_frames(OutputFile& out, const BvhFile& file, const NewFrames& fra
     }
 }
 
+// The file with a joint of six channels, all 0, put above one: see NewJoint. Lines beyond those announced are left out.
+BvhFile with_joint_above(const BvhFile& file, int joint, std::string_view name)
+{
+    const BvhJoint& below = file.joints[static_cast<std::size_t>(joint)];
+    const std::string_view text = file.text;
+    std::string wider(text.substr(0, below.name_begin));  // through ROOT or JOINT
+    wider += fmt::format(
+        " {}\n{{\nOFFSET 0 0 0\nCHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation\nJOINT", name);
+    wider += text.substr(below.name_begin, below.end - below.name_begin);
+    wider += "\n}";
+    std::size_t done = below.end;
+    for (const std::size_t frame_begin : file.frame_begin) {
+        std::string_view rest = text.substr(frame_begin);
+        for (std::size_t n = 0; n < below.first_channel; ++n) take_word(rest);
+        const auto word_begin = static_cast<std::size_t>(take_word(rest).data() - text.data());
+        wider += text.substr(done, word_begin - done);
+        wider += "0 0 0 0 0 0 ";
+        done = word_begin;
+    }
+    const std::size_t line_end = std::min(text.find('\n', done), text.size() - 1);
+    wider += text.substr(done, line_end + 1 - done);
+    return bvh_of(file.path, std::move(wider));
+}
+
+// The values at a time in frames of the file. before: of the line before, to which angles stay near.
+std::vector<double> values_at(const BvhFile& file, double time, const std::vector<double>& before)
+{
+    const auto from = std::min(static_cast<std::size_t>(time), file.clip.frame_count - 1);
+    const std::size_t to = std::min(from + 1, file.clip.frame_count - 1), joints = file.joints.size();
+    const double share = time - static_cast<double>(from);
+    std::vector<double> values = values_of(file, from);
+    const std::vector<double> next = values_of(file, to);
+    for (std::size_t joint = 0; joint < joints; ++joint) {
+        std::vector<std::size_t> angles;  // their places in the line
+        for (std::size_t c = 0; c < file.joints[joint].channels.size(); ++c) {
+            const std::size_t at = file.joints[joint].first_channel + c;
+            const bool is_angle = !is_position(file.joints[joint].channels[c]);
+            if (is_angle) angles.push_back(at);
+            values[at] += share * (is_angle ? std::remainder(next[at] - values[at], 360) : next[at] - values[at]);
+        }
+        const std::vector<int> axes = rotation_axes(file.joints[joint]);
+        if (axes.size() != 3 || !are_different(axes)) continue;  // they cannot give the joint any rotation
+        const Eigen::Quaterniond turn =
+            file.clip.rotation[from * joints + joint].slerp(share, file.clip.rotation[to * joints + joint]);
+        const Eigen::Vector3d near_deg(before[angles[0]], before[angles[1]], before[angles[2]]);
+        const Eigen::Vector3d angles_deg = nearest_euler(turn.normalized(), {axes[0], axes[1], axes[2]}, near_deg);
+        for (std::size_t n = 0; n < 3; ++n) values[angles[n]] = angles_deg[static_cast<Eigen::Index>(n)];
+    }
+    return values;
+}
+
 }  // namespace
 
-std::string value_text(double value)
+BvhFile at_rate(const BvhFile& file, double rate)
 {
-    const double shown = std::abs(value) < 5e-10 ? 0.0 : value;  // no "-0.000000000"
-    return fmt::format("{:.9f}", shown);
+    const Clip& clip = file.clip;
+    const double last = static_cast<double>(clip.frame_count - 1), seconds = last * clip.frame_time;
+    const double steps = clip.frame_count > 1 ? std::max(std::round(seconds * rate), 1.0) : 0;
+    if (steps * kValueBytes * static_cast<double>(file.channel_count) > kMaxTextBytes)
+        throw InputError(file.path,
+                         fmt::format("{:.0f} frames of {} values take more than 2 GiB; give a lower --fps, or cut it",
+                                     steps + 1, file.channel_count));
+    std::string text = file.text.substr(0, file.motion_begin);
+    text += frames_text(static_cast<std::size_t>(steps) + 1, steps > 0 ? seconds / steps : clip.frame_time);
+    std::vector<double> line = values_of(file, 0);
+    for (double step = 0; step <= steps; ++step) {
+        line = values_at(file, steps > 0 ? step * last / steps : 0, line);
+        for (std::size_t n = 0; n < line.size(); ++n) text += (n > 0 ? " " : "") + value_text(line[n]);
+        text += '\n';
+    }
+    BvhFile resampled = bvh_of(file.path, std::move(text));
+    resampled.surplus_count = file.surplus_count, resampled.announced_count = file.announced_count;
+    return resampled;
 }
 
 void require_can_key(const BvhFile& file, int joint) { axes_of(file, joint); }

@@ -42,21 +42,16 @@ void chain_up(const Clip& clip, std::span<JointPose> pose_w, const Next& next)
     }
 }
 
-}  // namespace
-
-std::string printable_name(const Joint& joint) { return printable(joint.name, 80); }
-
-Eigen::Vector3d mirrored(const Eigen::Vector3d& v) { return {-v.x(), v.y(), v.z()}; }
-Eigen::Quaterniond mirrored(const Eigen::Quaterniond& q) { return {q.w(), q.x(), -q.y(), -q.z()}; }
-
-JointPose local_pose(const Eigen::Vector3d& translation, const Eigen::Quaterniond& rotation,
-                     const Eigen::Vector3d& scale)
+// A joint's pose against its parent, from translation, rotation and scale.
+JointPose pose_of(const Joint& joint, const Eigen::Vector3d& translation, const Eigen::Quaterniond& rotation,
+                  const Eigen::Vector3d& scale)
 {
     JointPose pose{translation, rotation};
+    if (joint.is_sheared) pose.unevenness = std::numeric_limits<double>::infinity();
     if (scale == Eigen::Vector3d::Ones()) return pose;
     const Eigen::Vector3d size = scale.cwiseAbs();
     pose.scale = size.mean();
-    if (size.maxCoeff() > 0) pose.unevenness = 1 - size.minCoeff() / size.maxCoeff();
+    if (!joint.is_sheared && size.maxCoeff() > 0) pose.unevenness = 1 - size.minCoeff() / size.maxCoeff();
     pose.mirrored = scale.x() * scale.y() * scale.z() < 0;
     // The signs are a mirror in x, or none, and then half a turn about an axis, or none: the one that keeps its sign.
     const Eigen::Array3d sign(pose.mirrored == (scale.x() < 0) ? 1 : -1, scale.y() < 0 ? -1 : 1,
@@ -64,6 +59,13 @@ JointPose local_pose(const Eigen::Vector3d& translation, const Eigen::Quaternion
     if ((sign < 0).any()) pose.rotation = rotation * Eigen::Quaterniond(0, sign[0] > 0, sign[1] > 0, sign[2] > 0);
     return pose;
 }
+
+}  // namespace
+
+std::string printable_name(const Joint& joint) { return printable(joint.name, 80); }
+
+Eigen::Vector3d mirrored(const Eigen::Vector3d& v) { return {-v.x(), v.y(), v.z()}; }
+Eigen::Quaterniond mirrored(const Eigen::Quaterniond& q) { return {q.w(), q.x(), -q.y(), -q.z()}; }
 
 JointPose operator*(const JointPose& outer, const JointPose& inner)
 {
@@ -94,23 +96,22 @@ Eigen::Vector3d local_translation(const Clip& clip, std::size_t frame, std::size
     return clip.translation[frame * clip.track_count + static_cast<std::size_t>(at.track)];
 }
 
-JointPose local_pose(const Clip& clip, std::size_t frame, std::size_t joint)
+Eigen::Vector3d local_scale(const Clip& clip, std::size_t frame, std::size_t joint)
 {
     const Joint& at = clip.joints[joint];
-    const Eigen::Vector3d& scale =
-        at.scale_track < 0 ? at.rest_scale
-                           : clip.scale[frame * clip.scale_track_count + static_cast<std::size_t>(at.scale_track)];
-    JointPose pose =
-        local_pose(local_translation(clip, frame, joint), clip.rotation[frame * clip.joints.size() + joint], scale);
-    if (at.is_sheared) pose.unevenness = std::numeric_limits<double>::infinity();
-    return pose;
+    if (at.scale_track < 0) return at.rest_scale;
+    return clip.scale[frame * clip.scale_track_count + static_cast<std::size_t>(at.scale_track)];
+}
+
+JointPose local_pose(const Clip& clip, std::size_t frame, std::size_t joint)
+{
+    return pose_of(clip.joints[joint], local_translation(clip, frame, joint),
+                   clip.rotation[frame * clip.joints.size() + joint], local_scale(clip, frame, joint));
 }
 
 JointPose local_rest_pose(const Joint& joint)
 {
-    JointPose pose = local_pose(joint.offset, joint.rest_rotation, joint.rest_scale);
-    if (joint.is_sheared) pose.unevenness = std::numeric_limits<double>::infinity();
-    return pose;
+    return pose_of(joint, joint.offset, joint.rest_rotation, joint.rest_scale);
 }
 
 void keep_frames(Clip& clip, std::size_t frame_count)

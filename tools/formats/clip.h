@@ -85,10 +85,6 @@ inline const Eigen::Vector3d& position_of(std::span<const JointPose> pose, int j
 Eigen::Vector3d mirrored(const Eigen::Vector3d& v);
 Eigen::Quaterniond mirrored(const Eigen::Quaterniond& q);
 
-// A joint's pose against its parent, from translation, rotation and scale.
-JointPose local_pose(const Eigen::Vector3d& translation, const Eigen::Quaterniond& rotation,
-                     const Eigen::Vector3d& scale);
-
 // `inner`, a pose in the space of `outer`, in the space around `outer`.
 JointPose operator*(const JointPose& outer, const JointPose& inner);
 
@@ -100,6 +96,8 @@ Eigen::Vector3d to_inner(const JointPose& pose, const Eigen::Vector3d& point);
 // A joint's translation against its parent in one frame: its track where it has one, else its offset.
 // joint: 0 to joints.size()-1; frame: 0 to frame_count-1; unchecked, here and below.
 Eigen::Vector3d local_translation(const Clip& clip, std::size_t frame, std::size_t joint);
+// The same of its scale.
+Eigen::Vector3d local_scale(const Clip& clip, std::size_t frame, std::size_t joint);
 
 // A joint's whole pose against its parent: translation, rotation and scale.
 JointPose local_pose(const Clip& clip, std::size_t frame, std::size_t joint);

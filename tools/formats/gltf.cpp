@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -250,14 +251,16 @@ private:
     std::size_t max_bytes_;
 };
 
+constexpr std::array<std::string_view, 3> kPaths = {"translation", "rotation", "scale"};  // by GltfPath
+
 // Channels of KHR_animation_pointer may move nodes, too.
 void refuse_pointer_to_node(const GltfFile& file, const Json& channel)
 {
     const Json::json_pointer where("/target/extensions/KHR_animation_pointer/pointer");
     if (!channel.contains(where) || !channel.at(where).is_string()) return;
     const std::string to = channel.at(where).get<std::string>();
-    for (const char* path : {"/translation", "/rotation", "/scale"})
-        if (to.starts_with("/nodes/") && to.ends_with(path))
+    for (const std::string_view path : kPaths)
+        if (to.starts_with("/nodes/") && to.ends_with(fmt::format("/{}", path)))
             refuse(file, fmt::format("animation {} moves {} by KHR_animation_pointer, which is not read; export "
                                      "the motion of nodes as plain channels",
                                      file.animation, printable(to, 80)));
@@ -272,12 +275,11 @@ void read_channels(GltfFile& file, const Json& document, const std::vector<int>&
         refuse_pointer_to_node(file, from);
         const Json& target = from.at("target");
         const std::string path = target.at("path");
-        if (!target.contains("node") || !(path == "translation" || path == "rotation" || path == "scale")) continue;
+        const auto known = std::ranges::find(kPaths, path);
+        if (!target.contains("node") || known == kPaths.end()) continue;
         GltfChannel channel;
         channel.joint = element(file.path, joint_of, target.at("node"), "a channel's node");
-        channel.path = path == "rotation" ? GltfPath::rotation
-                       : path == "scale"  ? GltfPath::scale
-                                          : GltfPath::translation;
+        channel.path = static_cast<GltfPath>(known - kPaths.begin());
         if (!seen.emplace(channel.joint, channel.path).second)
             refuse(file, fmt::format("two channels of animation {} are for the {} of node {}; glTF allows one",
                                      file.animation, path, target.at("node").get<int>()));

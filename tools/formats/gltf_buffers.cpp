@@ -215,20 +215,21 @@ GltfBuffers read_gltf_buffers(const fs::path& path, const nlohmann::json& docume
     return buffers;
 }
 
-std::vector<double> read_accessor(const GltfData& data, int index, std::size_t width, std::size_t expected)
+std::vector<double> read_accessor(const GltfData& data, int index, std::size_t width, std::size_t expected,
+                                  const std::string& owner)
 {
-    const Json& at = element(data.path, list_in(data.document, "accessors"), index, "an animation's accessor");
+    const Json& at = element(data.path, list_in(data.document, "accessors"), index, (owner + "'s accessor").c_str());
     const bool has_view = at.contains("bufferView");
     const std::size_t count = at.at("count");
-    if (at.at("type") != (width == 1 ? "SCALAR" : width == 3 ? "VEC3" : width == 4 ? "VEC4" : "MAT4"))
-        refuse(data, fmt::format("accessor {} of an animation has the wrong type", index));
+    if (at.at("type") != accessor_type(width))
+        refuse(data, fmt::format("accessor {} of {} has the wrong type", index, owner));
     if (expected > 0 && count != expected)
         refuse(data, fmt::format("accessor {} and its times have different numbers of keys: {} elements, {} are needed",
                                  index, count, expected));
     if (expected == 0 && !has_view)
-        refuse(data, fmt::format("accessor {} of an animation's times has no buffer view", index));
+        refuse(data, fmt::format("accessor {} of {}'s times has no buffer view", index, owner));
     if (count == 0 || count > std::size_t{1} << 28)
-        refuse(data, fmt::format("accessor {} of an animation has {} keys", index, count));
+        refuse(data, fmt::format("accessor {} of {} has {} keys", index, owner, count));
     std::vector<double> values(has_view ? 0 : count * width);
     if (has_view) values = read_view(data, at, count, width, at.at("componentType"), at.value("normalized", false));
     if (at.contains("sparse")) patch(data, index, at, width, values);

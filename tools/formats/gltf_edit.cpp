@@ -84,18 +84,20 @@ void settle_binary(GltfAsset& asset, std::span<const std::string_view> buffers)
     list[0].erase("uri");
 }
 
+// A vector, or a quaternion's coeffs(), as a list.
+Json list_of(const auto& numbers) { return std::vector<double>(numbers.begin(), numbers.end()); }
+
 // An animated node must not have a matrix.
 void take_matrix_apart(Json& node, const GltfChanges::Track& track)
 {
     if (node.erase("matrix") == 0) return;
-    const Eigen::Quaterniond& q = track.rotation;
-    node["translation"] = {track.translation.x(), track.translation.y(), track.translation.z()};
-    node["rotation"] = {q.x(), q.y(), q.z(), q.w()};
-    node["scale"] = {track.scale.x(), track.scale.y(), track.scale.z()};
+    node["translation"] = list_of(track.rest.offset);
+    node["rotation"] = list_of(track.rest.rotation.coeffs());
+    node["scale"] = list_of(track.rest.scale);
 }
 
 // Adds an accessor of floats, and returns its index.
-std::size_t add_floats(GltfAsset& asset, std::span<const float> values, std::size_t width, const char* type)
+std::size_t add_floats(GltfAsset& asset, std::span<const float> values, std::size_t width)
 {
     asset.list("bufferViews")
         .push_back(asset.add_bytes({reinterpret_cast<const char*>(values.data()), values.size_bytes()}));
@@ -103,7 +105,7 @@ std::size_t add_floats(GltfAsset& asset, std::span<const float> values, std::siz
         .push_back({{"bufferView", asset.list("bufferViews").size() - 1},
                     {"componentType", kFloat},
                     {"count", values.size() / width},
-                    {"type", type}});
+                    {"type", accessor_type(width)}});
     return asset.list("accessors").size() - 1;
 }
 
@@ -164,15 +166,15 @@ void add_tracks(GltfAsset& asset, std::size_t times, std::span<const GltfChanges
     for (const GltfChanges::Track& track : tracks) {
         const std::size_t node = first_node + static_cast<std::size_t>(track.node);
         take_matrix_apart(asset.list("nodes")[node], track);
-        const auto add = [&](const char* path, std::span<const float> keys, std::size_t width, const char* type) {
+        const auto add = [&](const char* path, std::span<const float> keys, std::size_t width) {
             if (keys.empty()) return;
             Json& sampler = sampler_of(animation, static_cast<int>(node), path);
             sampler["input"] = times;
-            sampler["output"] = add_floats(asset, keys, width, type);
+            sampler["output"] = add_floats(asset, keys, width);
             sampler["interpolation"] = track.is_stepped ? "STEP" : "LINEAR";
         };
-        add("rotation", track.xyzw, 4, "VEC4");
-        add("translation", track.xyz, 3, "VEC3");
+        add("rotation", track.xyzw, 4);
+        add("translation", track.xyz, 3);
     }
 }
 
@@ -230,11 +232,11 @@ void add_figures(GltfAsset& asset, std::size_t times, const GltfChanges& changes
                    end = roots.begin() + static_cast<std::ptrdiff_t>((n + 1) * roots.size() / changes.figures.size());
         shown.push_back(asset.list("nodes").size());
         asset.list("nodes").push_back({{"name", figure.name},
-                                       {"translation", {figure.place.x(), figure.place.y(), figure.place.z()}},
+                                       {"translation", list_of(figure.place)},
                                        {"scale", {figure.size, figure.size, figure.size}},
                                        {"children", std::vector<std::size_t>(first, end)}});
-        if (const Eigen::Quaterniond& q = figure.rotation; !q.vec().isZero(0))
-            asset.list("nodes").back()["rotation"] = {q.x(), q.y(), q.z(), q.w()};
+        if (!figure.rotation.vec().isZero(0))
+            asset.list("nodes").back()["rotation"] = list_of(figure.rotation.coeffs());
         add_tracks(asset, times, figure.tracks, animation, n * node_count, add_channel);
         for (const GltfChanges::Track& track : figure.tracks)
             rest_at_first_keys(asset.list("nodes")[n * node_count + static_cast<std::size_t>(track.node)], track);
@@ -265,12 +267,11 @@ void add_node(GltfAsset& asset, const GltfData& read, const GltfChanges::NewNode
         if (joints == skin.end() || std::find(joints->begin(), joints->end(), Json(added.below)) == joints->end())
             continue;
         if (const auto binds = skin.find("inverseBindMatrices"); binds != skin.end()) {
-            const std::vector<double> old = read_accessor(read, binds->get<int>(), 16, 0);
-            std::vector<float> matrices(16 * joints->size());
-            std::transform(old.begin(), old.begin() + std::min(std::ssize(old), std::ssize(matrices)), matrices.begin(),
-                           [](double part) { return static_cast<float>(part); });
-            for (const double part : added.inverse_bind.reshaped()) matrices.push_back(static_cast<float>(part));
-            *binds = add_floats(asset, matrices, 16, "MAT4");
+            std::vector<double> matrices = read_accessor(read, binds->get<int>(), 16, 0, "a skin");
+            matrices.resize(16 * joints->size());
+            const auto added_bind = added.inverse_bind.reshaped();
+            matrices.insert(matrices.end(), added_bind.begin(), added_bind.end());
+            *binds = add_floats(asset, std::vector<float>(matrices.begin(), matrices.end()), 16);
         }
         joints->push_back(node);
     }
@@ -280,7 +281,7 @@ void add_keys(GltfAsset& asset, const GltfChanges& changes)
 {
     if (changes.drops_animations) asset.document.erase("animations");
     if (changes.tracks.empty() && changes.figures.empty()) return;
-    const std::size_t times = add_floats(asset, changes.times, 1, "SCALAR");
+    const std::size_t times = add_floats(asset, changes.times, 1);
     asset.list("accessors")[times]["min"] = {changes.times.front()};
     asset.list("accessors")[times]["max"] = {changes.times.back()};
     if (changes.figures.empty())

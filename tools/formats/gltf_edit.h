@@ -1,6 +1,6 @@
 #pragma once
 // SPDX-License-Identifier: MIT
-// Puts new keys into a glTF file's JSON text and buffers. Owns every rule about places in that text; knows no clip.
+// Puts new keys into a glTF file's JSON text and buffers. Owns every rule about places in that text; knows no skeleton.
 
 #include <Eigen/Geometry>
 #include <filesystem>
@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "tools/formats/clip.h"
 #include "tools/formats/gltf_container.h"
 
 namespace swivel::formats {
@@ -21,9 +22,7 @@ struct GltfChanges {
         std::vector<float> xyzw;  // rotations, 4 for each time; empty: no new ones
         std::vector<float> xyz;   // the same of translations, 3 for each time
         bool is_stepped = false;  // STEP; else LINEAR
-        // The parts of the node's matrix, if it has one.
-        Eigen::Vector3d translation, scale;
-        Eigen::Quaterniond rotation;
+        UnkeyedPose rest;         // the parts of the node's matrix, if it has one
     };
     // A new node, put between a node and that one's parent, without a transform. It gets the index after the file's
     // last node. Skins that move the node below it get it as their last joint.

@@ -37,6 +37,12 @@ inline const nlohmann::json& list_in(const nlohmann::json& owner, const char* na
     return found == owner.end() ? kNone : *found;
 }
 
+// The type of an accessor whose elements have this many components: 1, 3, 4 or 16.
+constexpr const char* accessor_type(std::size_t width)
+{
+    return width == 1 ? "SCALAR" : width == 3 ? "VEC3" : width == 4 ? "VEC4" : "MAT4";
+}
+
 // The list's element of this index. path: of the file. name: of the list's elements, for the message. Throws InputError
 // if there is none.
 template <class List>

@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <stdexcept>
 
 #include "tools/formats/error.h"
@@ -19,13 +19,11 @@ namespace {
 
 using Eigen::Quaterniond;
 
-const Joint& joint_at(const GltfFile& file, int joint) { return file.clip.joints[static_cast<std::size_t>(joint)]; }
-
-// Keys of one node that rests so, each in the hemisphere of the one before, so that readers that do not look for the
-// shorter arc take it, too.
+// Keys of one node. Each rotation is in the hemisphere of the one before, and the first in that of the rest pose, so
+// that readers that do not look for the shorter arc take it, too.
 GltfChanges::Track track_of(int node, const UnkeyedPose& rest, const JointKeys& keys)
 {
-    GltfChanges::Track track{node, {}, {}, false, rest.offset, rest.scale, rest.rotation};
+    GltfChanges::Track track{node, {}, {}, false, rest};
     Quaterniond before = rest.rotation;
     for (const Quaterniond& rotation : keys.rotation) {
         Quaterniond key = rotation.normalized();
@@ -46,21 +44,17 @@ std::vector<float> even_times(const NewFrames& frames)
     return times;
 }
 
-// The joints that move by keys of rotation, and those of them that move by steps.
-struct Movers {
-    std::set<int> all, by_steps;
-};
-
-Movers movers_of(const GltfFile& file, const std::set<int>& joints)
+// Joints with new keys whose own rotations move, and whether they move by steps.
+std::map<int, bool> steps_of(const GltfFile& file, std::span<const JointKeys> keys)
 {
-    Movers movers;
+    std::map<int, bool> steps;
     for (const GltfChannel& channel : file.channels) {
         const GltfSampler& sampler = file.samplers[channel.sampler];
-        if (channel.path != GltfPath::rotation || !joints.contains(channel.joint) || !is_moving(sampler)) continue;
-        movers.all.insert(channel.joint);
-        if (sampler.interpolation == Interpolation::step) movers.by_steps.insert(channel.joint);
+        const bool has_keys = std::ranges::find(keys, channel.joint, &JointKeys::joint) != keys.end();
+        if (has_keys && channel.path == GltfPath::rotation && is_moving(sampler))
+            steps[channel.joint] = sampler.interpolation == Interpolation::step;
     }
-    return movers;
+    return steps;
 }
 
 std::vector<GltfChanges::Track> tracks_of(const GltfFile& file, std::span<const JointKeys> keys)
@@ -68,7 +62,7 @@ std::vector<GltfChanges::Track> tracks_of(const GltfFile& file, std::span<const 
     std::vector<GltfChanges::Track> tracks;
     for (const JointKeys& each : keys) {
         require_can_key(file, each.joint);
-        const Joint& joint = joint_at(file, each.joint);
+        const Joint& joint = joint_at(file.clip, each.joint);
         tracks.push_back(track_of(joint.number, pose_without_keys(joint), each));
     }
     return tracks;
@@ -78,11 +72,11 @@ std::vector<GltfChanges::Track> tracks_of(const GltfFile& file, std::span<const 
 GltfChanges::NewNode node_of(const GltfFile& file, const NewJoint& joint)
 {
     Eigen::Affine3d parent_w = Eigen::Affine3d::Identity();
-    for (int above = joint_at(file, joint.below).parent; above >= 0; above = joint_at(file, above).parent) {
-        const UnkeyedPose rest = pose_without_keys(joint_at(file, above));
+    for (int above = joint_at(file.clip, joint.below).parent; above >= 0; above = joint_at(file.clip, above).parent) {
+        const UnkeyedPose rest = pose_without_keys(joint_at(file.clip, above));
         parent_w = Eigen::Translation3d(rest.offset) * rest.rotation * Eigen::Scaling(rest.scale) * parent_w;
     }
-    return {joint.name, static_cast<std::size_t>(joint_at(file, joint.below).number), parent_w.inverse().matrix()};
+    return {joint.name, static_cast<std::size_t>(joint_at(file.clip, joint.below).number), parent_w.inverse().matrix()};
 }
 
 std::string glb_named(const std::filesystem::path& path, const GltfContainer& container)
@@ -108,7 +102,7 @@ void write_changes(const std::filesystem::path& path, const GltfFile& file, cons
 
 void require_can_key(const GltfFile& file, int joint)
 {
-    const Joint& at = joint_at(file, joint);
+    const Joint& at = joint_at(file.clip, joint);
     if (at.is_sheared)
         throw InputError(file.path, fmt::format("the matrix of node {} is sheared, so it cannot have keys; remove the "
                                                 "shear where the rig was made",
@@ -126,13 +120,12 @@ void write_gltf(const std::filesystem::path& path, const GltfFile& file, std::sp
     }
     require_keys(file.clip, keys, changes.times.size());
     changes.tracks = tracks_of(file, keys);
-    std::set<int> joints;
-    for (const JointKeys& each : keys) joints.insert(each.joint);
-    const Movers movers = frames ? Movers{} : movers_of(file, joints);
-    for (std::size_t n = 0; n < keys.size(); ++n)  // one that had no keys that move goes as all others do
-        changes.tracks[n].is_stepped = movers.all.contains(keys[n].joint)
-                                           ? movers.by_steps.contains(keys[n].joint)
-                                           : !movers.all.empty() && movers.by_steps == movers.all;
+    const std::map<int, bool> steps = frames ? std::map<int, bool>() : steps_of(file, keys);
+    const bool all_step = !steps.empty() && std::ranges::all_of(steps, [](const auto& each) { return each.second; });
+    for (std::size_t n = 0; n < keys.size(); ++n) {  // a joint that did not move goes as all others do
+        const auto own = steps.find(keys[n].joint);
+        changes.tracks[n].is_stepped = own == steps.end() ? all_step : own->second;
+    }
     if (above) {
         const auto below = std::ranges::find(keys, above->below, &JointKeys::joint) - keys.begin();
         const UnkeyedPose rest{Eigen::Vector3d::Zero(), Quaterniond::Identity(), Eigen::Vector3d::Ones()};

@@ -40,9 +40,7 @@ constexpr std::string_view side_name(Side side) { return side == Side::left ? "l
 // The word that files use: left_arm, right_arm, left_leg or right_leg.
 constexpr std::string_view limb_word(LimbName name)
 {
-    const bool left = name.side == Side::left;
-    if (name.kind == LimbKind::arm) return left ? "left_arm" : "right_arm";
-    return left ? "left_leg" : "right_leg";
+    return std::array<std::string_view, 4>{"left_arm", "right_arm", "left_leg", "right_leg"}[index_of(name)];
 }
 // The limb of such a word; nothing for any other.
 constexpr std::optional<LimbName> limb_of_word(std::string_view word)

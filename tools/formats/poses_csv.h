@@ -46,6 +46,9 @@ struct PoseColumns {
     unsigned twist_count = 0;  // "twist1_x" and so on
     bool heading = false;      // "heading_deg"
     bool name = false;         // "name"
+
+    // Whether a PoseExtra has some of them.
+    bool has_extras() const { return stretch || clavicle || twist_count > 0; }
 };
 
 class PosesCsv {
@@ -58,7 +61,7 @@ public:
     void append(std::uint32_t frame, std::span<const PoseRow> rows, std::span<const PoseExtra> extras = {});
 
     // Makes the file appear; without it there is none. To be called once, last.
-    void commit();
+    void commit() { out_.commit(); }
 
 private:
     OutputFile out_;

@@ -35,8 +35,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b)
 std::optional<std::string> nearest_word(std::string_view wrong, std::span<const std::string> words)
 {
     const auto far = [&](const std::string& word) { return edit_distance(wrong, word); };
-    const auto nearest =
-        std::min_element(words.begin(), words.end(), [&](const auto& a, const auto& b) { return far(a) < far(b); });
+    const auto nearest = std::ranges::min_element(words, {}, far);
     if (nearest == words.end() || 3 * far(*nearest) > nearest->size() + 1) return std::nullopt;
     return *nearest;
 }

@@ -119,23 +119,22 @@ Target parse_target(const Row& row)
 // Which of kColumns the cells of the first line name.
 std::vector<unsigned> columns_of(const fs::path& path, std::size_t line, const std::vector<std::string_view>& cells)
 {
+    const auto refuse = [&](const std::string& cause) { throw InputError(path, line, cause); };
     std::vector<unsigned> columns;
     const auto is_there = [&](std::string_view name) {
         return std::any_of(columns.begin(), columns.end(), [&](unsigned column) { return kColumns[column] == name; });
     };
     for (const std::string_view cell : cells) {
         if (cells.size() == 1 && cell.find_first_of(";\t") != cell.npos)
-            throw InputError(path, line,
-                             "its columns are separated by semicolons or tabs; write commas, and points in numbers");
-        const auto known = std::find(kColumns.begin(), kColumns.end(), cell);
+            refuse("its columns are separated by semicolons or tabs; write commas, and points in numbers");
+        const auto known = std::ranges::find(kColumns, cell);
         if (known == kColumns.end())
-            throw InputError(path, line,
-                             fmt::format("unknown column '{}'; known are {}", printable(cell), kColumnList));
-        if (is_there(cell)) throw InputError(path, line, fmt::format("column {} is there twice", cell));
+            refuse(fmt::format("unknown column '{}'; known are {}", printable(cell), kColumnList));
+        if (is_there(cell)) refuse(fmt::format("column {} is there twice", cell));
         columns.push_back(static_cast<unsigned>(known - kColumns.begin()));
     }
     if (is_there(kColumns[kSide]) && is_there(kColumns[kLimb]))
-        throw InputError(path, line, "columns limb and side are both there; leave side out");
+        refuse("columns limb and side are both there; leave side out");
     std::vector<std::string_view> missing;
     for (const Part part : {kPlace, kPole, kOrientation}) {
         const auto first = kColumns.begin() + part.first, last = first + part.count;
@@ -144,22 +143,18 @@ std::vector<unsigned> columns_of(const fs::path& path, std::size_t line, const s
             return !is_there(name) && !(name == kColumns[kLimb] && is_there(kColumns[kSide]));
         });
     }
-    if (missing.empty()) return columns;
-    throw InputError(path, line,
-                     fmt::format("column{} {} {} missing; the first line must name {}", missing.size() == 1 ? "" : "s",
-                                 joined(missing, ","), missing.size() == 1 ? "is" : "are", kColumnList));
+    if (!missing.empty())
+        refuse(fmt::format("column{} {} {} missing; the first line must name {}", missing.size() == 1 ? "" : "s",
+                           joined(missing, ","), missing.size() == 1 ? "is" : "are", kColumnList));
+    return columns;
 }
 
 auto place_of(const Target& target) { return std::tuple(target.frame, target.character, target.limb); }
 
 void sort_targets(const fs::path& path, std::vector<Target>& targets)
 {
-    const auto before = [](const Target& a, const Target& b) { return place_of(a) < place_of(b); };
-    const auto same = [](const Target& a, const Target& b) { return place_of(a) == place_of(b); };
-    if (!std::is_sorted(targets.begin(), targets.end(), before)) {
-        std::stable_sort(targets.begin(), targets.end(), before);
-    }
-    const auto twin = std::adjacent_find(targets.begin(), targets.end(), same);
+    if (!std::ranges::is_sorted(targets, {}, place_of)) std::ranges::stable_sort(targets, {}, place_of);
+    const auto twin = std::ranges::adjacent_find(targets, {}, place_of);
     if (twin == targets.end()) return;
     const Target& again = *(twin + 1);
     throw InputError(path, again.line,
@@ -196,7 +191,7 @@ std::vector<Target> read_targets_csv(const fs::path& path)
 
 TargetsCsv::TargetsCsv(const std::filesystem::path& path) : out_(path)
 {
-    out_.write("frame,character,limb,x,y,z,pole_x,pole_y,pole_z,qx,qy,qz,qw\n");
+    out_.write(joined(std::span(kColumns).first(kSide), ",") + "\n");
 }
 
 void TargetsCsv::append(std::span<const Target> targets)

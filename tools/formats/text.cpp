@@ -43,6 +43,12 @@ std::size_t read_some(const std::filesystem::path& path, std::FILE* file, char* 
     return count;
 }
 
+void require_text(const std::filesystem::path& path, std::string_view bytes)
+{
+    const bool is_binary = bytes.find('\0') != std::string_view::npos;
+    if (is_binary) throw InputError(path, "is a binary file; a text file is needed");
+}
+
 // The bytes left in a plain file; 0: unknown.
 std::size_t size_beyond(std::FILE* file)
 {
@@ -52,14 +58,13 @@ std::size_t size_beyond(std::FILE* file)
     return static_cast<std::size_t>(std::max(status.st_size - at, off_t{0}));
 }
 
-// read: one of the two that read a part.
-template <class Read>
-void append(const std::filesystem::path& path, std::FILE* file, std::size_t max, std::string& bytes, Read read)
+void append(const std::filesystem::path& path, std::FILE* file, std::size_t max, std::string& bytes, bool is_text)
 {
     bytes.reserve(bytes.size() + std::min(max, size_beyond(file)));
     const auto chunk = std::make_unique_for_overwrite<char[]>(kChunkBytes);
     while (max > 0) {
-        const std::size_t count = read(path, file, chunk.get(), std::min(max, kChunkBytes));
+        const std::size_t count = read_some(path, file, chunk.get(), std::min(max, kChunkBytes));
+        if (is_text) require_text(path, {chunk.get(), count});
         if (count == 0) return;
         bytes.append(chunk.get(), count);
         max -= count;
@@ -67,22 +72,15 @@ void append(const std::filesystem::path& path, std::FILE* file, std::size_t max,
 }
 
 // The rest of a file, appended to `bytes`.
-template <class Read>
 void append_all(const std::filesystem::path& path, std::FILE* file, std::string& bytes, std::string_view advice,
-                Read read)
+                bool is_text)
 {
     const auto require = [&](std::size_t size) {
         if (size > kMaxBytes) throw InputError(path, fmt::format("is longer than 2 GiB; {}", advice));
     };
     require(bytes.size() + size_beyond(file));  // a plain file need not be read for this
-    append(path, file, kMaxBytes + 1 - bytes.size(), bytes, read);
+    append(path, file, kMaxBytes + 1 - bytes.size(), bytes, is_text);
     require(bytes.size());
-}
-
-void require_text(const std::filesystem::path& path, std::string_view bytes)
-{
-    const bool is_binary = bytes.find('\0') != std::string_view::npos;
-    if (is_binary) throw InputError(path, "is a binary file; a text file is needed");
 }
 
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
@@ -122,19 +120,19 @@ std::string read_text(const std::filesystem::path& path) { return read_text(path
 std::string read_text(const std::filesystem::path& path, std::FILE* file, std::string begin)
 {
     require_text(path, begin);
-    append_all(path, file, begin, "cut it", read_chunk);
+    append_all(path, file, begin, "cut it", true);
     if (begin.empty()) throw InputError(path, "is empty; check how it was written");
     return begin;
 }
 
 void append_bytes(const std::filesystem::path& path, std::FILE* file, std::size_t max, std::string& bytes)
 {
-    append(path, file, max, bytes, read_some);
+    append(path, file, max, bytes, false);
 }
 
 void append_rest(const std::filesystem::path& path, std::FILE* file, std::string& bytes, std::string_view advice)
 {
-    append_all(path, file, bytes, advice, read_some);
+    append_all(path, file, bytes, advice, false);
 }
 
 std::string_view without_byte_order_mark(std::string_view text)

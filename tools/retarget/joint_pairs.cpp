@@ -43,6 +43,14 @@ std::set<int> joints_in(const JointPairs& pairs, BodySide side, bool paired_alon
     return joints;
 }
 
+std::vector<int> bones_outside(const std::set<int>& joints, const Clip& clip)
+{
+    std::vector<int> bones;
+    for (int joint = 0; joint < static_cast<int>(clip.joints.size()); ++joint)
+        if (joint_at(clip, joint).is_bone && !joints.contains(joint)) bones.push_back(joint);
+    return bones;
+}
+
 using NamedBones = std::map<std::string, int>;
 
 // The bones of a clip by name. Ambiguous names and the empty one are left out.
@@ -172,12 +180,10 @@ void write_joint_map(const std::filesystem::path& path, const JointPairs& pairs,
         for (std::size_t n = 0; n < std::max(part.source.size(), part.target.size()); ++n)
             write(part.name, n < part.source.size() ? from_cells.of(part.source[n]) : "",
                   n < part.target.size() ? to_cells.of(part.target[n]) : "");
-    const std::set<int> in_source = joints_in(pairs, BodySide::source, false);
-    const std::set<int> in_target = joints_in(pairs, BodySide::target, false);
-    for (const int joint : unpaired_bones(pairs, source, BodySide::source))
-        if (!in_source.contains(joint)) write("", from_cells.of(joint), "");
-    for (const int joint : unpaired_bones(pairs, target, BodySide::target))
-        if (!in_target.contains(joint) && can_key(joint)) write("", "", to_cells.of(joint));
+    for (const int joint : bones_outside(joints_in(pairs, BodySide::source, false), source))
+        write("", from_cells.of(joint), "");
+    for (const int joint : bones_outside(joints_in(pairs, BodySide::target, false), target))
+        if (can_key(joint)) write("", "", to_cells.of(joint));
     out.commit();
 }
 
@@ -191,11 +197,7 @@ std::vector<BodyPart> parts_of(const JointPairs& pairs, BodySide side)
 
 std::vector<int> unpaired_bones(const JointPairs& pairs, const Clip& clip, BodySide side)
 {
-    const std::set<int> paired = joints_in(pairs, side, true);
-    std::vector<int> joints;
-    for (int joint = 0; joint < static_cast<int>(clip.joints.size()); ++joint)
-        if (joint_at(clip, joint).is_bone && !paired.contains(joint)) joints.push_back(joint);
-    return joints;
+    return bones_outside(joints_in(pairs, side, true), clip);
 }
 
 }  // namespace swivel::tools

@@ -39,8 +39,8 @@ JointPairs pair_joints(const PartedBody& source, const PartedBody& target);
 // - joints that do not exist or are not unique, and a joint that is given twice.
 JointPairs read_joint_map(const std::filesystem::path& path, const formats::Clip& source, const formats::Clip& target);
 
-// Writes such a table; bones without a partner are rows with an empty cell, unless the target's file cannot store their
-// rotations. can_key: whether it can. Throws InputError on writing.
+// Writes such a table; bones without a partner are rows with an empty cell. can_key: whether the target's file can
+// store a joint's rotation; bones for which it cannot are left out. Throws InputError on writing.
 void write_joint_map(const std::filesystem::path& path, const JointPairs& pairs, const formats::Clip& source,
                      const formats::Clip& target, const std::function<bool(int)>& can_key);
 

@@ -6,8 +6,8 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "tools/retarget/eased.h"
 #include "tools/rig/limb_chain.h"
+#include "tools/rig/vectors.h"
 
 namespace swivel::tools {
 
@@ -18,6 +18,7 @@ using Eigen::Vector3d;
 using formats::Clip;
 using formats::JointPose;
 using formats::LimbKind;
+using formats::position_of;
 using Poses = std::vector<JointPose>;
 
 constexpr double kMaxWay = 0.1;  // leg lengths that hips move for knees: legs in a split would ask for any
@@ -30,7 +31,7 @@ const JointPose& at(const Poses& pose_w, int joint) { return pose_w[static_cast<
 Vector3d middle(const Poses& pose_w, const KnownLimbs& limbs, const std::vector<std::size_t>& which)
 {
     Vector3d sum = Vector3d::Zero();
-    for (const std::size_t limb : which) sum += at(pose_w, (*limbs[limb])[0]).position;
+    for (const std::size_t limb : which) sum += position_of(pose_w, (*limbs[limb])[0]);
     return sum / static_cast<double>(which.size());
 }
 
@@ -50,16 +51,14 @@ bool has_all_toes(const RestFigure& figure)
 struct Bones {
     double thigh, shin;
 
-    double length() const { return thigh + shin; }
-    // A knee's bend for a distance from hip to ankle, 0 for a straight leg; and the reverse.
-    double flexion(double apart) const
+    // The cosine of a knee's bend, 1 for a straight leg, by the squared distance from hip to ankle; and the reverse.
+    double cosine(double apart2) const
     {
-        return std::acos(std::clamp((apart * apart - thigh * thigh - shin * shin) / (2 * thigh * shin), -1.0, 1.0));
+        return std::clamp((apart2 - thigh * thigh - shin * shin) / (2 * thigh * shin), -1.0, 1.0);
     }
-    double apart(double flexion) const
-    {
-        return std::sqrt(std::max(0.0, thigh * thigh + shin * shin + 2 * thigh * shin * std::cos(flexion)));
-    }
+    double apart2(double cosine) const { return thigh * thigh + shin * shin + 2 * thigh * shin * cosine; }
+    // The bend by the distance.
+    double flexion(double apart) const { return std::acos(cosine(apart * apart)); }
 };
 Bones bones_of(const RestFigure& figure, std::size_t limb)
 {
@@ -78,12 +77,10 @@ public:
         for (std::size_t limb = 0; limb < formats::kLimbNames.size(); ++limb)
             if (source_.limbs[limb] && target_.limbs[limb])
                 (formats::kLimbNames[limb].kind == LimbKind::arm ? arms_ : legs_).push_back(limb);
-        const std::vector<int> source_hips = joints_of(parts_of(pairs, BodySide::source), "hips");
-        const std::vector<int> target_hips = joints_of(parts_of(pairs, BodySide::target), "hips");
-        if (source_hips.empty() || target_hips.empty() || legs_.empty())
+        source_hips_ = first_joint(parts_of(pairs, BodySide::source), "hips");
+        out_.hips = first_joint(parts_of(pairs, BodySide::target), "hips");
+        if (source_hips_ < 0 || out_.hips < 0 || legs_.empty())
             throw std::invalid_argument("both bodies need hips and a leg");
-        source_hips_ = source_hips[0];
-        out_.hips = target_hips[0];
         for (const std::vector<std::size_t>& limbs : {arms_, legs_})
             for (const std::size_t limb : limbs) out_.limbs.push_back(formats::kLimbNames[limb]);
         double source_length = 0, target_length = 0;
@@ -118,17 +115,11 @@ public:
     }
 
 private:
-    int ankle(const RestFigure& figure, std::size_t leg) const { return (*figure.limbs[leg])[2]; }
-    // The joint that touches the ground.
-    int ground_joint(const RestFigure& figure, std::size_t leg) const
-    {
-        return has_toes_ ? figure.toes[leg - 2] : ankle(figure, leg);
-    }
     // From toe to ankle of flat feet, as the figure has it: the target's less the source's.
     Vector3d foot_difference(std::size_t leg, const Stance& from, const Stance& to) const
     {
-        const Vector3d own = source_.own_way(ankle(source_, leg), source_.toes[leg - 2]);
-        const double target_length = target_.own_way(ankle(target_, leg), target_.toes[leg - 2]).norm();
+        const Vector3d own = source_.own_way((*source_.limbs[leg])[2], source_.toes[leg - 2]);
+        const double target_length = target_.own_way((*target_.limbs[leg])[2], target_.toes[leg - 2]).norm();
         const bool both = from.slope[leg - 2] && to.slope[leg - 2];
         const Vector3d ahead = Vector3d(own.x(), 0, own.z()).normalized();
         const auto flat = [&](double length, double slope) {
@@ -201,7 +192,7 @@ private:
         const Vector3d goal_w = mapped(middle(source_w, source_.limbs, legs_)) +
                                 target_.world(source_turn(source_w, source_hips_) * foot_difference_);
         const Vector3d shift_w = goal_w - middle(pose_w, target_.limbs, legs_);
-        const Vector3d place_w = at(pose_w, out_.hips).position + shift_w + shift_for_knees(source_w, pose_w, shift_w);
+        const Vector3d place_w = position_of(pose_w, out_.hips) + shift_w + shift_for_knees(source_w, pose_w, shift_w);
         const int parent = joint_at(clip, out_.hips).parent;
         clip.translation[frame] = parent < 0 ? place_w : formats::to_inner(at(pose_w, parent), place_w);
     }
@@ -209,8 +200,9 @@ private:
     // The target's ankle place, which does not depend on its hips.
     Vector3d ankle_goal(std::size_t leg, const Poses& source_w, const Poses& pose_w) const
     {
-        return mapped(at(source_w, ground_joint(source_, leg)).position) +
-               (at(pose_w, ankle(target_, leg)).position - at(pose_w, ground_joint(target_, leg)).position);
+        return mapped(position_of(source_w, source_.ground_joint(leg, has_toes_))) +
+               (position_of(pose_w, (*target_.limbs[leg])[2]) -
+                position_of(pose_w, target_.ground_joint(leg, has_toes_)));
     }
 
     // Gauss-Newton steps from hips that are moved by shift_w. For a knee's angle a and both bones p and q, hip and
@@ -224,16 +216,14 @@ private:
             for (const std::size_t leg : legs_) {
                 const LimbJoints &from = *source_.limbs[leg], &to = *target_.limbs[leg];
                 const Bones own = bones_of(source_, leg), bones = bones_of(target_, leg);
-                const double away2 = (at(source_w, from[0]).position - at(source_w, from[2]).position).squaredNorm();
-                const double cosine = std::clamp(
-                    (away2 - own.thigh * own.thigh - own.shin * own.shin) / (2 * own.thigh * own.shin), -1.0, 1.0);
-                const double wanted2 =
-                    bones.thigh * bones.thigh + bones.shin * bones.shin + 2 * bones.thigh * bones.shin * cosine;
+                const double cosine =
+                    own.cosine((position_of(source_w, from[0]) - position_of(source_w, from[2])).squaredNorm());
+                const double wanted2 = bones.apart2(cosine);
                 const Vector3d way_w =
-                    at(pose_w, to[0]).position + shift_w + more_w - ankle_goal(leg, source_w, pose_w);
+                    position_of(pose_w, to[0]) + shift_w + more_w - ankle_goal(leg, source_w, pose_w);
                 const Vector3d direction_w = way_w.normalized();
                 // 0.01: a knee within 6 degrees of straight tells no more
-                const double per_length = bones.length() / (bones.thigh * bones.shin);
+                const double per_length = (bones.thigh + bones.shin) / (bones.thigh * bones.shin);
                 const double weight = wanted2 * per_length * per_length / (1 - cosine * cosine + 0.01);
                 normal += weight * direction_w * direction_w.transpose();
                 right -= weight * (way_w.norm() - std::sqrt(wanted2)) * direction_w;
@@ -248,13 +238,13 @@ private:
     Vector3d wrist_way(std::size_t arm, const Poses& source_w, const Poses& pose_w) const
     {
         const LimbJoints& from = *source_.limbs[arm];
-        const Vector3d shoulder_w = at(source_w, from[0]).position;
-        const Vector3d way_w = at(source_w, from[2]).position - shoulder_w;
+        const Vector3d shoulder_w = position_of(source_w, from[0]);
+        const Vector3d way_w = position_of(source_w, from[2]) - shoulder_w;
         const double ratio = target_.length(arm) / source_.length(arm);
         const double bent = 1 - rise(way_w.norm() / source_.length(arm), 0.7, 0.95);
         const Vector3d from_middle = source_.own(shoulder_w - middle(source_w, source_.limbs, arms_));
         const Vector3d to_middle =
-            target_.own(at(pose_w, (*target_.limbs[arm])[0]).position - middle(pose_w, target_.limbs, arms_));
+            target_.own(position_of(pose_w, (*target_.limbs[arm])[0]) - middle(pose_w, target_.limbs, arms_));
         return target_.world(ratio * source_.own(way_w) + bent * (ratio * from_middle - to_middle));
     }
 
@@ -263,22 +253,21 @@ private:
         const Poses pose_w = formats::world_pose(out_.clip, frame);
         const auto add = [&](std::size_t limb, const Vector3d& place_w) {
             const LimbJoints& joints = *target_.limbs[limb];
-            const Vector3d start_w = at(pose_w, joints[0]).position;
-            const Vector3d way_w = at(pose_w, joints[2]).position - start_w;
-            formats::Target goal;
+            const Vector3d start_w = position_of(pose_w, joints[0]);
+            const Vector3d way_w = position_of(pose_w, joints[2]) - start_w;
+            formats::Target& goal = out_.goals.emplace_back();
             goal.frame = static_cast<std::uint32_t>(frame);
             goal.limb = formats::kLimbNames[limb];
             goal.position = place_w;
             // The elbow turns with the line from shoulder to wrist: beside a new line the old elbow says little.
             goal.has_pole = true;
-            goal.pole = start_w + aim(way_w, place_w - start_w) * (at(pose_w, joints[1]).position - start_w);
-            out_.goals.push_back(goal);
+            goal.pole = start_w + aim(way_w, place_w - start_w) * (position_of(pose_w, joints[1]) - start_w);
             const LimbJoints& from = *source_.limbs[limb];
-            const double apart = (at(source_w, from[2]).position - at(source_w, from[0]).position).norm();
+            const double apart = (position_of(source_w, from[2]) - position_of(source_w, from[0])).norm();
             bends_.push_back({start_w, bones_of(source_, limb).flexion(apart)});
         };
         for (const std::size_t arm : arms_)
-            add(arm, at(pose_w, (*target_.limbs[arm])[0]).position + wrist_way(arm, source_w, pose_w));
+            add(arm, position_of(pose_w, (*target_.limbs[arm])[0]) + wrist_way(arm, source_w, pose_w));
         for (const std::size_t leg : legs_) add(leg, ankle_goal(leg, source_w, pose_w));
     }
 
@@ -302,7 +291,8 @@ private:
                 if (slower[frame] == extra[frame]) continue;
                 const Bend& bend = bends_[frame * count + n];
                 Vector3d& place_w = out_.eased[frame * count + n].position;
-                const double apart = bones.apart(std::clamp(bend.source + slower[frame], 0.0, std::numbers::pi));
+                const double flexion = std::clamp(bend.source + slower[frame], 0.0, std::numbers::pi);
+                const double apart = std::sqrt(std::max(0.0, bones.apart2(std::cos(flexion))));
                 place_w = bend.start_w + apart * (place_w - bend.start_w).normalized();
             }
         }

@@ -40,8 +40,8 @@ struct Feet {
     const RestFigure& figure;
     bool has_toes;
 
-    int ankle(std::size_t side) const { return (*figure.limbs[2 + side])[2]; }
-    int ground_joint(std::size_t side) const { return has_toes ? figure.toes[side] : ankle(side); }
+    int ankle(std::size_t side) const { return figure.ground_joint(2 + side, false); }
+    int ground_joint(std::size_t side) const { return figure.ground_joint(2 + side, has_toes); }
     Vector3d own_place(const Poses& pose_w, int joint) const { return figure.own(formats::position_of(pose_w, joint)); }
     double height(const Poses& pose_w) const
     {
@@ -138,12 +138,11 @@ RestFigure rest_figure(const formats::Clip& clip, const std::vector<BodyPart>& p
     figure.pose_w = formats::rest_pose(clip);
     figure.limbs = limbs_of(parts);
     figure.axes = axes_of(facing_of(clip, figure.limbs));
-    if (const std::vector<int> hips = joints_of(parts, "hips"); !hips.empty())
-        figure.mirrored = figure.pose_w[static_cast<std::size_t>(hips[0])].mirrored;
+    if (const int hips = first_joint(parts, "hips"); hips >= 0)
+        figure.mirrored = figure.pose_w[static_cast<std::size_t>(hips)].mirrored;
     int count = 0;
     for (std::size_t side = 0; side < 2; ++side) {
-        const std::vector<int> toes = joints_of(parts, side == 0 ? "leftToes" : "rightToes");
-        if (!toes.empty()) figure.toes[side] = toes[0];
+        figure.toes[side] = first_joint(parts, side == 0 ? "leftToes" : "rightToes");
         if (!figure.limbs[2 + side]) continue;
         figure.leg += figure.length(2 + side);
         ++count;

@@ -35,6 +35,11 @@ struct RestFigure {
     {
         return axes * in_mirror(own_turn) * axes.conjugate();
     }
+    // A limb's end, or the toe of a leg: the joint that touches the ground.
+    int ground_joint(std::size_t limb, bool has_toes) const
+    {
+        return limb >= 2 && has_toes ? toes[limb - 2] : (*limbs[limb])[2];
+    }
     // A limb's two bones together at rest; of one that is known.
     double length(std::size_t limb) const
     {

@@ -26,21 +26,20 @@ constexpr double kMostly = 0.25;               // of the frames
 
 // How often a value is too large, and where it is largest.
 struct Excess {
-    double bound, max = 0, sum = 0;
-    std::size_t count = 0, max_frame = 0;
+    double bound, sum = 0;
+    std::size_t count = 0;
+    Peak peak{};
 
     void add(double value, std::size_t frame)
     {
         sum += value;
         if (value > bound) ++count;
-        if (value <= max) return;
-        max = value;
-        max_frame = frame;
+        peak.raise(frame, value);
     }
     bool is_mostly(std::size_t all) const { return static_cast<double>(count) >= kMostly * static_cast<double>(all); }
     std::string where(std::size_t all) const
     {
-        return fmt::format("over {:g} in {} of {} frames, most in frame {}", bound, count, all, max_frame);
+        return fmt::format("over {:g} in {} of {} frames, most in frame {}", bound, count, all, peak.frame);
     }
 };
 
@@ -49,9 +48,8 @@ struct LimbCourse {
     const LimbJoints &from, &to;
     std::array<Excess, 2> away{Excess{kAway_deg}, Excess{kAway_deg}};
     Excess missed{kMissed}, lost{kLost}, sunk{kSunk};
-    double turn_deg = 0, source_turn_deg = 0;  // the fastest of knee or elbow, a frame
+    Peak turn_deg{}, source_turn_deg{};        // of knee or elbow, a frame
     double bend_deg = 0, source_bend_deg = 0;  // in the frame before
-    std::size_t turn_frame = 0;
 
     static Vector3d bone(const Poses& pose_w, const LimbJoints& joints, std::size_t n)
     {
@@ -69,11 +67,8 @@ struct LimbCourse {
         const double bend = degrees_between(bone(pose_w, to, 0), bone(pose_w, to, 1));
         const double source_bend = degrees_between(bone(source_w, from, 0), bone(source_w, from, 1));
         if (frame > 0) {
-            source_turn_deg = std::max(source_turn_deg, std::abs(source_bend - source_bend_deg));
-            if (const double turn = std::abs(bend - bend_deg); turn > turn_deg) {
-                turn_deg = turn;
-                turn_frame = frame;
-            }
+            source_turn_deg.raise(frame, std::abs(source_bend - source_bend_deg));
+            turn_deg.raise(frame, std::abs(bend - bend_deg));
         }
         bend_deg = bend;
         source_bend_deg = source_bend;
@@ -85,29 +80,24 @@ double depth(const RestFigure& figure, const Poses& pose_w, int joint, double gr
 {
     return std::max(0.0, (ground - position_of(pose_w, joint).dot(figure.up_w())) / figure.leg);
 }
-// A limb's joint that touches the ground.
-int low_joint(const RestFigure& figure, std::size_t limb, bool of_toes)
-{
-    return limb >= 2 && of_toes ? figure.toes[limb - 2] : (*figure.limbs[limb])[2];
-}
 
 // From the middle of the hip joints to the shoulders or else to the head, as the figure has it; zero without them.
 Vector3d trunk(const RestFigure& figure, const std::vector<BodyPart>& parts, const Poses& pose_w)
 {
-    const std::vector<int> head = joints_of(parts, "head");
+    const int head = first_joint(parts, "head");
     const auto middle_w = [&](std::size_t pair) -> Vector3d {
         return (position_of(pose_w, (*figure.limbs[pair])[0]) + position_of(pose_w, (*figure.limbs[pair + 1])[0])) / 2;
     };
     const auto has = [&](std::size_t pair) { return figure.limbs[pair] && figure.limbs[pair + 1]; };
-    if (!has(2) || (!has(0) && head.empty())) return Vector3d::Zero();
-    return figure.own((has(0) ? middle_w(0) : position_of(pose_w, head[0])) - middle_w(2));
+    if (!has(2) || (!has(0) && head < 0)) return Vector3d::Zero();
+    return figure.own((has(0) ? middle_w(0) : position_of(pose_w, head)) - middle_w(2));
 }
 
 void judge_away(const Excess& away, const std::string& what, std::size_t frames, Verdict& verdict)
 {
     if (away.count == 0) return;
     (away.is_mostly(frames) ? verdict.faults : verdict.doubts)
-        .push_back(fmt::format("the {} points up to {:.0f} degrees away from the source's: {}", what, away.max,
+        .push_back(fmt::format("the {} points up to {:.0f} degrees away from the source's: {}", what, away.peak.value,
                                away.where(frames)));
 }
 
@@ -122,18 +112,16 @@ void judge(const LimbCourse& limb, formats::LimbName name, std::size_t frames, d
     if (missed.count > 0)
         (is_lost ? verdict.faults : verdict.doubts)
             .push_back(fmt::format("the {} {} is up to {:.2g} limb lengths from its goal: {}", side_name(name.side),
-                                   words.end_joint, missed.max, missed.where(frames)));
+                                   words.end_joint, missed.peak.value, missed.where(frames)));
     if (limb.sunk.count > 0)
         verdict.doubts.push_back(
-            fmt::format("the {} {} goes up to {:.2g} leg lengths deeper into the ground than the "
-                        "source's: {}",
-                        side_name(name.side), words.end, limb.sunk.max, limb.sunk.where(frames)));
-    if (limb.turn_deg > std::max(2 * limb.source_turn_deg, kFast_deg * frame_time))
-        verdict.doubts.push_back(
-            fmt::format("the {} {} turns by {:.1f} degrees from frame {} to {}, the source's by at "
-                        "most {:.1f}",
-                        side_name(name.side), words.lower_joint, limb.turn_deg, limb.turn_frame - 1, limb.turn_frame,
-                        limb.source_turn_deg));
+            fmt::format("the {} {} goes up to {:.2g} leg lengths deeper into the ground than the source's: {}",
+                        side_name(name.side), words.end, limb.sunk.peak.value, limb.sunk.where(frames)));
+    const auto& [frame, turn_deg] = limb.turn_deg;
+    if (turn_deg > std::max(2 * limb.source_turn_deg.value, kFast_deg * frame_time))
+        verdict.doubts.push_back(fmt::format(
+            "the {} {} turns by {:.1f} degrees from frame {} to {}, the source's by at most {:.1f}",
+            side_name(name.side), words.lower_joint, turn_deg, frame - 1, frame, limb.source_turn_deg.value));
 }
 
 }  // namespace
@@ -157,8 +145,8 @@ Verdict verdict_of(const Clip& source_clip, const Retargeted& motion, const Join
             if (!motion.ground || (!motion.ground->of_toes && motion.limbs[n].kind == formats::LimbKind::arm)) continue;
             const std::size_t limb = index_of(motion.limbs[n]);
             const auto& [source_ground, ground, of_toes] = *motion.ground;
-            limbs[n].sunk.add(depth(target, pose_w, low_joint(target, limb, of_toes), ground) -
-                                  depth(source, source_w, low_joint(source, limb, of_toes), source_ground),
+            limbs[n].sunk.add(depth(target, pose_w, target.ground_joint(limb, of_toes), ground) -
+                                  depth(source, source_w, source.ground_joint(limb, of_toes), source_ground),
                               frame);
         }
     }
@@ -166,7 +154,7 @@ Verdict verdict_of(const Clip& source_clip, const Retargeted& motion, const Join
     judge_away(trunk_away, "trunk", frames, verdict);
     for (std::size_t n = 0; n < limbs.size(); ++n) {
         const Excess& missed = limbs[n].missed;
-        verdict.misses.push_back({missed.sum / static_cast<double>(frames), missed.max, missed.max_frame});
+        verdict.misses.push_back({missed.sum / static_cast<double>(frames), missed.peak.value, missed.peak.frame});
         judge(limbs[n], motion.limbs[n], frames, motion.clip.frame_time, verdict);
     }
     return verdict;

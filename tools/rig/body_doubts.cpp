@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tools/rig/body_doubts.h"
+#include "tools/rig/clip_doubts.h"
 
 #include <fmt/format.h>
 
@@ -27,22 +27,17 @@ class BodyJudge {
 public:
     explicit BodyJudge(const BodyFrames& body) : body_(body) {}
 
-    BodyDoubts judge()
+    std::vector<ClipDoubt> judge()
     {
         judge_up();
-        if (!doubts_.empty()) return {std::move(doubts_), true};
+        if (!doubts_.all.empty()) return std::move(doubts_.all);
         judge_sides();
         judge_exchange();
         judge_bends();
-        return {std::move(doubts_), false};
+        return std::move(doubts_.all);
     }
 
 private:
-    template <class... Words>
-    ClipDoubt& doubt(fmt::format_string<Words...> text, Words&&... words)
-    {
-        return doubts_.emplace_back(ClipDoubt{fmt::format(text, std::forward<Words>(words)...)});
-    }
     Vector3d level(const Vector3d& way_w) const { return way_w - way_w.dot(body_.up_w()) * body_.up_w(); }
 
     void judge_sides()
@@ -52,7 +47,8 @@ private:
                 const double left = body_.bone_w(body_.rest_w(), pair, bone).norm(),
                              right = body_.bone_w(body_.rest_w(), pair + 1, bone).norm();
                 if (is_other_length(left, right))
-                    doubt("the left {} is {:.2f} times as long as the right one", bone_name(pair, bone), left / right);
+                    doubts_.look("the left {} is {:.2f} times as long as the right one", bone_name(pair, bone),
+                                 left / right);
             }
     }
     void judge_exchange()
@@ -67,15 +63,14 @@ private:
         // A runner's foot points back in up to a third of the frames.
         const bool is_left = feet[0].are_over(0.5), is_right = feet[1].are_over(0.5);
         if (is_left && is_right)
-            doubt("the left leg is on the right of where the toes point {}", feet[0].words()).is_garbage = true;
+            doubts_.garbage("the left leg is on the right of where the toes point {}", feet[0].words());
         else if (is_left || is_right)
-            doubt("the {} foot points backwards {}", is_left ? "left" : "right", feet[is_left ? 0 : 1].words())
-                .is_garbage = true;
+            doubts_.garbage("the {} foot points backwards {}", is_left ? "left" : "right",
+                            feet[is_left ? 0 : 1].words());
         if (!body_.has(0)) return;
         const SomeFrames arms = body_.where(
             [&](const Places& places_w) { return body_.to_left_w(places_w, 0).dot(body_.to_left_w(places_w, 2)) < 0; });
-        if (arms.are_over(0.5))
-            doubt("the left arm is on the side of the right leg {}", arms.words()).is_garbage = true;
+        if (arms.are_over(0.5)) doubts_.garbage("the left arm is on the side of the right leg {}", arms.words());
     }
     // How far a limb bends the way that people's do: 1 as theirs, -1 the other way, 0 where it is too straight to tell.
     // In a limb that hangs, the axis of a knee points to the left and that of an elbow to the right; the limb takes the
@@ -109,10 +104,9 @@ private:
             const SomeFrames wrong =
                 body_.where([&](const Places& places_w) { return bend(places_w, limb) < -kBackwards; });
             if (wrong.are_over(kMostly))
-                doubt("the {} {} bends {} {}", side_name(formats::kLimbNames[limb].side),
-                      words_of(formats::kLimbNames[limb].kind).lower_joint, limb < 2 ? "backwards" : "forwards",
-                      wrong.words())
-                    .is_garbage = true;
+                doubts_.garbage("the {} {} bends {} {}", side_name(formats::kLimbNames[limb].side),
+                                words_of(formats::kLimbNames[limb].kind).lower_joint,
+                                limb < 2 ? "backwards" : "forwards", wrong.words());
         }
     }
     void judge_up()
@@ -129,19 +123,20 @@ private:
         const Vector3d mean_w = sum_w / static_cast<double>(body_.count());
         const Vector3d axis_w = nearest_axis(mean_w);
         if (axis_w != body_.up_w() && mean_w.dot(axis_w) > 0.8)
-            doubt(
+            doubts_.look(
                 "heads are above feet along {} in its frames and along {} in its rest pose; --up or --rest says "
                 "which is right",
                 axis_name(axis_w), axis_name(body_.up_w()));
         else if (body_.up_w().y() + body_.up_w().z() != 1 && mean_w.dot(body_.up_w()) < 0.5)
-            doubt(
-                "heads are above feet along {} in its rest pose and not in its frames; --up and --rest say what is "
-                "right",
+            doubts_.look(
+                "heads are above feet along {} in its rest pose and not in its frames; --up and --rest say what "
+                "is right",
                 axis_name(body_.up_w()));
+        for (ClipDoubt& each : doubts_.all) each.is_up_wrong = true;
     }
 
     const BodyFrames& body_;
-    std::vector<ClipDoubt> doubts_;
+    DoubtList doubts_;
 };
 
 }  // namespace
@@ -159,18 +154,15 @@ std::string SomeFrames::words() const { return fmt::format("in {} of {} frames, 
 
 BodyFrames::BodyFrames(const Clip& clip, const std::vector<BodyPart>& parts)
     : clip_(clip),
+      parts_(parts),
       limbs_(limbs_of(parts)),
       up_w_(nearest_axis(facing_of(clip, limbs_).up_w)),
+      hips_(first_joint(parts, "hips")),
       slots_(clip.joints.size())
 {
-    for (std::size_t side = 0; side < 2; ++side)
-        if (const std::vector<int> toes = joints_of(parts, side == 0 ? "leftToes" : "rightToes"); !toes.empty())
-            toes_[side] = toes.front();
+    for (std::size_t side = 0; side < 2; ++side) toes_[side] = first_joint(parts, side == 0 ? "leftToes" : "rightToes");
     const std::vector<formats::JointPose> rest_w = formats::rest_pose(clip);
-    if (const std::vector<int> hips = joints_of(parts, "hips"); !hips.empty()) {
-        hips_ = hips.front();
-        is_mirrored_ = rest_w[static_cast<std::size_t>(hips_)].mirrored;
-    }
+    is_mirrored_ = hips_ >= 0 && rest_w[static_cast<std::size_t>(hips_)].mirrored;
     const auto see = [&](int joint) {
         if (joint < 0) return;
         slots_[static_cast<std::size_t>(joint)] = seen_.size();
@@ -205,11 +197,9 @@ std::string_view bone_name(std::size_t limb, std::size_t bone)
 
 bool is_other_length(double a, double b) { return a > 0 && b > 0 && std::max(a, b) > kOtherLength * std::min(a, b); }
 
-BodyDoubts body_doubts(const BodyFrames& body) { return body.count() == 0 ? BodyDoubts{} : BodyJudge(body).judge(); }
-
-std::vector<std::string> body_doubts(const formats::Clip& clip, const std::vector<BodyPart>& parts)
+std::vector<ClipDoubt> body_doubts(const BodyFrames& body)
 {
-    return texts_of(body_doubts(BodyFrames(clip, parts)).doubts);
+    return body.count() == 0 ? std::vector<ClipDoubt>() : BodyJudge(body).judge();
 }
 
 }  // namespace swivel::tools

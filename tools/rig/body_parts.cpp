@@ -2,7 +2,6 @@
 #include "tools/rig/body_parts.h"
 
 #include <algorithm>
-#include <initializer_list>
 
 #include "tools/rig/joint_names.h"
 
@@ -13,14 +12,6 @@ namespace {
 using formats::Clip;
 using formats::LimbKind;
 using formats::LimbName;
-
-// VRM's words for a limb's three joints.
-std::array<std::string, 3> part_names(LimbName limb)
-{
-    const std::string side(side_name(limb.side));
-    if (limb.kind == LimbKind::arm) return {side + "UpperArm", side + "LowerArm", side + "Hand"};
-    return {side + "UpperLeg", side + "LowerLeg", side + "Foot"};
-}
 
 // The joints below `top` and above `joint`, from the top down; all above `joint` where `top` is not above it.
 std::vector<int> between(const Clip& clip, int top, int joint)
@@ -39,27 +30,19 @@ struct Body {
     const Clip& clip;
     const KnownLimbs& limbs;
 
-    int said(const std::string& bone) const
-    {
-        const auto found = clip.human_bones.find(bone);
-        return found == clip.human_bones.end() ? -1 : found->second;
-    }
     // Where two limbs meet; -1 unless both are known.
     int fork(std::size_t left) const
     {
         return limbs[left] && limbs[left + 1] ? fork_of(clip, (*limbs[left])[0], (*limbs[left + 1])[0]) : -1;
     }
-    int first_called(std::initializer_list<std::string_view> names) const
-    {
-        for (int joint = 0; joint < static_cast<int>(clip.joints.size()); ++joint)
-            if (std::ranges::find(names, plain(joint_at(clip, joint).name)) != names.end()) return joint;
-        return -1;
-    }
     int hips() const
     {
-        if (const int joint = said("hips"); joint >= 0) return joint;
-        const int joint = fork(2);
-        return joint >= 0 ? joint : first_called({"hips", "pelvis"});
+        if (const int joint = vrm_joint(clip, "hips"); joint >= 0) return joint;
+        if (const int joint = fork(2); joint >= 0) return joint;
+        for (int joint = 0; joint < static_cast<int>(clip.joints.size()); ++joint)
+            if (const std::string name = plain(joint_at(clip, joint).name); name == "hips" || name == "pelvis")
+                return joint;
+        return -1;
     }
     // How doubtful it is that this is the head; nothing if it is not.
     std::optional<int> doubt_of_head(int joint) const
@@ -72,7 +55,7 @@ struct Body {
     }
     int head(int chest) const
     {
-        if (const int joint = said("head"); joint >= 0) return joint;
+        if (const int joint = vrm_joint(clip, "head"); joint >= 0) return joint;
         std::optional<int> min;
         int head = -1;
         for (int joint = 0; joint < static_cast<int>(clip.joints.size()); ++joint) {
@@ -82,11 +65,6 @@ struct Body {
             head = joint;
         }
         return head;
-    }
-    int toe(std::size_t leg) const
-    {
-        const std::vector<int> toes = toes_of(clip, formats::kLimbNames[leg].side, (*limbs[leg])[2]);
-        return toes.empty() ? -1 : toes.front();
     }
 };
 
@@ -118,8 +96,8 @@ std::vector<BodyPart> body_parts(const Clip& clip, const KnownLimbs& limbs, std:
         const LimbName limb = formats::kLimbNames[n];
         const std::string side(side_name(limb.side));
         if (limb.kind == LimbKind::arm && chest >= 0) add(side + "Shoulder", between(clip, chest, (*limbs[n])[0]));
-        for (std::size_t joint = 0; joint < 3; ++joint) add(part_names(limb)[joint], {(*limbs[n])[joint]});
-        if (limb.kind == LimbKind::leg) add(side + "Toes", {body.toe(n)});
+        for (std::size_t joint = 0; joint < 3; ++joint) add(vrm_words(limb)[joint], {(*limbs[n])[joint]});
+        if (limb.kind == LimbKind::leg) add(side + "Toes", {toe_of(clip, limb.side, (*limbs[n])[2])});
     }
     return parts;
 }
@@ -130,13 +108,19 @@ std::vector<int> joints_of(const std::vector<BodyPart>& parts, std::string_view 
     return part == parts.end() ? std::vector<int>() : part->joints;
 }
 
+int first_joint(const std::vector<BodyPart>& parts, std::string_view name)
+{
+    const std::vector<int> joints = joints_of(parts, name);
+    return joints.empty() ? -1 : joints.front();
+}
+
 std::vector<std::string> part_names()
 {
     std::vector<std::string> names{"hips", "spine", "neck", "head"};
     for (const LimbName limb : formats::kLimbNames) {
         const std::string side(side_name(limb.side));
         if (limb.kind == LimbKind::arm) names.push_back(side + "Shoulder");
-        for (const std::string& name : part_names(limb)) names.push_back(name);
+        for (const std::string& word : vrm_words(limb)) names.push_back(word);
         if (limb.kind == LimbKind::leg) names.push_back(side + "Toes");
     }
     return names;
@@ -145,8 +129,8 @@ std::vector<std::string> part_names()
 bool is_limb_part(const BodyPart& part)
 {
     return std::ranges::any_of(formats::kLimbNames, [&](LimbName limb) {
-        const auto names = part_names(limb);
-        return std::ranges::find(names, part.name) != names.end();
+        const auto words = vrm_words(limb);
+        return std::ranges::find(words, part.name) != words.end();
     });
 }
 
@@ -157,7 +141,7 @@ KnownLimbs limbs_of(const std::vector<BodyPart>& parts)
         LimbJoints joints{};
         bool is_known = true;
         for (std::size_t part = 0; part < 3; ++part) {
-            const std::vector<int> found = joints_of(parts, part_names(formats::kLimbNames[n])[part]);
+            const std::vector<int> found = joints_of(parts, vrm_words(formats::kLimbNames[n])[part]);
             is_known = is_known && found.size() == 1;
             if (is_known) joints[part] = found.front();
         }

@@ -32,6 +32,9 @@ std::vector<BodyPart> body_parts(const formats::Clip& clip, const KnownLimbs& li
 // The joints of the part of that name; empty if there is none.
 std::vector<int> joints_of(const std::vector<BodyPart>& parts, std::string_view name);
 
+// The first of these; -1 if there is none.
+int first_joint(const std::vector<BodyPart>& parts, std::string_view name);
+
 // The names of all parts, in the order above, the left side's limbs before the right's.
 std::vector<std::string> part_names();
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "tools/rig/clip_doubts.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -16,7 +14,6 @@ namespace {
 
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
-using formats::Clip;
 using Places = BodyFrames::Places;
 
 constexpr double kBehind = 0.75;                  // the sine of 49 degrees: an upper arm that points backwards
@@ -30,7 +27,7 @@ constexpr double kSunk = 0.03, kElsewhere = 0.5;  // leg lengths below height 0;
 
 class MotionJudge {
 public:
-    MotionJudge(const BodyFrames& body, const std::vector<BodyPart>& parts) : body_(body), parts_(parts) {}
+    explicit MotionJudge(const BodyFrames& body) : body_(body) {}
 
     std::vector<ClipDoubt> judge()
     {
@@ -41,16 +38,10 @@ public:
         judge_jumps();
         judge_stillness();
         judge_height();
-        return std::move(doubts_);
+        return std::move(doubts_.all);
     }
 
 private:
-    template <class... Words>
-    ClipDoubt& doubt(fmt::format_string<Words...> text, Words&&... words)
-    {
-        return doubts_.emplace_back(ClipDoubt{fmt::format(text, std::forward<Words>(words)...)});
-    }
-
     void judge_lengths()
     {
         for (std::size_t limb = 0; limb < body_.limbs().size(); ++limb)
@@ -60,23 +51,21 @@ private:
                     return is_other_length(body_.bone_w(places_w, limb, bone).norm(), at_rest);
                 });
                 if (frames.count > 0)
-                    doubt("the {} {} is not as long as at rest {}", side_name(formats::kLimbNames[limb].side),
-                          bone_name(limb, bone), frames.words());
+                    doubts_.look("the {} {} is not as long as at rest {}", side_name(formats::kLimbNames[limb].side),
+                                 bone_name(limb, bone), frames.words());
             }
     }
     void judge_arms()
     {
         for (std::size_t arm = 0; body_.has(0) && arm < 2; ++arm) {
+            const std::string_view side = side_name(formats::kLimbNames[arm].side);
             const SomeFrames behind = body_.where([&](const Places& places_w) {
                 return body_.bone_w(places_w, arm, 0).normalized().dot(body_.front_w(places_w, 0)) < -kBehind;
             });
-            if (behind.are_over(kMostly))
-                doubt("the {} upper arm points backwards {}", side_name(formats::kLimbNames[arm].side), behind.words());
+            if (behind.are_over(kMostly)) doubts_.look("the {} upper arm points backwards {}", side, behind.words());
             if (body_.hips() < 0) continue;
             const SomeFrames inside = body_.where([&](const Places& places_w) { return is_inside(places_w, arm); });
-            if (inside.are_over(kMostly))
-                doubt("the {} elbow is inside the trunk {}", side_name(formats::kLimbNames[arm].side), inside.words())
-                    .is_garbage = true;
+            if (inside.are_over(kMostly)) doubts_.garbage("the {} elbow is inside the trunk {}", side, inside.words());
         }
     }
     // Whether the elbow is nearer to the line from hips to shoulders than half of the way to a shoulder.
@@ -90,84 +79,76 @@ private:
         const double share = way_w.dot(back_w) / back_w.squaredNorm();
         return share > 0 && share < 1 && (way_w - share * back_w).norm() < body_.to_left_w(places_w, 0).norm() / 4;
     }
-    // How far a joint turns against its parent between two frames.
-    double turn_deg(std::size_t joint, std::size_t from, std::size_t to) const
+    // A joint's rotation against its parent.
+    const Quaterniond& rotation(int joint, std::size_t frame) const
     {
-        const auto rotation = [&](std::size_t frame) {
-            return body_.clip().rotation[frame * body_.clip().joints.size() + joint];
-        };
-        return rotation(from).angularDistance(rotation(to)) * (180 / std::numbers::pi);
+        return body_.clip().rotation[frame * body_.clip().joints.size() + static_cast<std::size_t>(joint)];
+    }
+    // How far it turns between two frames.
+    double turn_deg(int joint, std::size_t from, std::size_t to) const
+    {
+        return rotation(joint, from).angularDistance(rotation(joint, to)) * (180 / std::numbers::pi);
     }
     // How far a joint's own rotation in a frame is out of the middle of those before and after, in degrees.
-    double out_of_middle_deg(std::size_t joint, std::size_t frame) const
+    double out_of_middle_deg(int joint, std::size_t frame) const
     {
         if (frame == 0 || frame + 1 >= body_.count()) return 0;
-        const auto rotation = [&](std::size_t at) {
-            return body_.clip().rotation[at * body_.clip().joints.size() + joint];
-        };
-        const Quaterniond middle = rotation(frame - 1).slerp(0.5, rotation(frame + 1));
-        return middle.angularDistance(rotation(frame)) * (180 / std::numbers::pi);
+        const Quaterniond middle = rotation(joint, frame - 1).slerp(0.5, rotation(joint, frame + 1));
+        return middle.angularDistance(rotation(joint, frame)) * (180 / std::numbers::pi);
     }
     void judge_pops()
     {
-        double max = 0;
-        std::size_t worst_frame = 0;
+        Peak pop;
         int worst = -1;
-        for (const BodyPart& part : parts_)
+        for (const BodyPart& part : body_.parts())
             for (const int joint : part.joints)
                 for (std::size_t frame = 2; frame + 1 < body_.count(); ++frame) {
-                    const auto at = static_cast<std::size_t>(joint);
-                    const double out = out_of_middle_deg(at, frame);
-                    if (out < kPop_deg || out <= max) continue;
-                    if (turn_deg(at, frame - 1, frame + 1) > out) continue;  // it goes there alone
-                    if (out < kPopRatio * std::max(out_of_middle_deg(at, frame - 2), out_of_middle_deg(at, frame + 2)))
-                        continue;
-                    max = out;
+                    const double out = out_of_middle_deg(joint, frame);
+                    if (out < kPop_deg || out <= pop.value) continue;
+                    if (turn_deg(joint, frame - 1, frame + 1) > out) continue;  // it goes there alone
+                    const double beside =
+                        std::max(out_of_middle_deg(joint, frame - 2), out_of_middle_deg(joint, frame + 2));
+                    if (out < kPopRatio * beside) continue;
+                    pop = {frame, out};
                     worst = joint;
-                    worst_frame = frame;
                 }
         if (worst >= 0)
-            doubt("'{}' turns there and back, by {:.0f} degrees in frame {}",
-                  printable_name(joint_at(body_.clip(), worst)), max, worst_frame);
+            doubts_.look("'{}' turns there and back, by {:.0f} degrees in frame {}",
+                         printable_name(joint_at(body_.clip(), worst)), pop.value, pop.frame);
     }
     // Many files begin with a T-pose.
     void judge_first_frame()
     {
         if (body_.count() < 3) return;
         double max = 0, after = 0;
-        for (const BodyPart& part : parts_)
+        for (const BodyPart& part : body_.parts())
             for (const int joint : part.joints) {
-                max = std::max(max, turn_deg(static_cast<std::size_t>(joint), 0, 1));
-                after = std::max(after, turn_deg(static_cast<std::size_t>(joint), 1, 2));
+                max = std::max(max, turn_deg(joint, 0, 1));
+                after = std::max(after, turn_deg(joint, 1, 2));
             }
         if (max > 2 * kPop_deg && max > kPopRatio * after)
-            doubt("frame 0 is a pose of its own: joints turn by up to {:.0f} degrees to frame 1, then by {:.1f}", max,
-                  after);
+            doubts_.look("frame 0 is a pose of its own: joints turn by up to {:.0f} degrees to frame 1, then by {:.1f}",
+                         max, after);
     }
     // A body has weight: it gains speed over some frames.
     void judge_jumps()
     {
         if (body_.hips() < 0 || (!body_.limbs()[2] && !body_.limbs()[3])) return;
-        double max = body_.leg_length() * std::max(kSeen, kJump * body_.clip().frame_time * body_.clip().frame_time);
-        std::size_t worst_frame = 0;
-        for (std::size_t frame = 2; frame + 1 < body_.count(); ++frame) {
-            const auto hips_w = [&](std::size_t at) { return body_.place(body_.frames_w()[at], body_.hips()); };
-            const double change = (hips_w(frame + 1) - 2 * hips_w(frame) + hips_w(frame - 1)).norm();
-            if (change <= max) continue;
-            max = change;
-            worst_frame = frame;
-        }
-        max /= body_.leg_length();
-        if (worst_frame > 0)
-            doubt("the body jumps by {:.2f} leg lengths beside frame {}", max, worst_frame).leg_lengths = max;
+        const double time = body_.clip().frame_time, leg = body_.leg_length();
+        const auto hips_w = [&](std::size_t at) { return body_.place(body_.frames_w()[at], body_.hips()); };
+        Peak jump{0, leg * std::max(kSeen, kJump * time * time)};
+        for (std::size_t frame = 2; frame + 1 < body_.count(); ++frame)
+            jump.raise(frame, (hips_w(frame + 1) - 2 * hips_w(frame) + hips_w(frame - 1)).norm());
+        if (jump.frame > 0)
+            doubts_.look("the body jumps by {:.2f} leg lengths beside frame {}", jump.value / leg, jump.frame)
+                .leg_lengths = jump.value / leg;
     }
     // The most that a limb's joints turn away from the first frame, in degrees.
     double movement_deg(std::size_t limb) const
     {
         double max = 0;
         for (const int joint : *body_.limbs()[limb])
-            for (std::size_t frame = 1; frame < body_.count(); ++frame)
-                max = std::max(max, turn_deg(static_cast<std::size_t>(joint), 0, frame));
+            for (std::size_t frame = 1; frame < body_.count(); ++frame) max = std::max(max, turn_deg(joint, 0, frame));
         return max;
     }
     void judge_stillness()
@@ -176,8 +157,8 @@ private:
             const std::size_t other = limb ^ 1;
             if (!body_.limbs()[limb] || !body_.limbs()[other] || movement_deg(limb) > kStill_deg) continue;
             if (const double moves = movement_deg(other); moves > kMoved_deg)
-                doubt("the {} {} never moves, the other turns by up to {:.0f} degrees",
-                      side_name(formats::kLimbNames[limb].side), words_of(formats::kLimbNames[limb].kind).limb, moves);
+                doubts_.look("the {} never moves, the other turns by up to {:.0f} degrees",
+                             plain_name(formats::kLimbNames[limb]), moves);
         }
     }
     void judge_height()
@@ -193,26 +174,20 @@ private:
         if (heights.empty()) return;
         const double ground = quantile(heights, 0.05) / body_.leg_length();
         if (ground < -kSunk && ground > -kElsewhere)
-            doubt("its feet stand at a height of {:.2f} leg lengths, below 0", ground).leg_lengths = ground;
+            doubts_.look("its feet stand at a height of {:.2f} leg lengths, below 0", ground).leg_lengths = ground;
     }
     const BodyFrames& body_;
-    const std::vector<BodyPart>& parts_;
-    std::vector<ClipDoubt> doubts_;
+    DoubtList doubts_;
 };
 
 }  // namespace
 
-BodyDoubts clip_doubts(const BodyFrames& body, const std::vector<BodyPart>& parts)
+std::vector<ClipDoubt> clip_doubts(const BodyFrames& body)
 {
-    BodyDoubts all = body_doubts(body);
-    if (body.count() > 0 && !all.is_up_wrong)
-        std::ranges::move(MotionJudge(body, parts).judge(), std::back_inserter(all.doubts));
-    return all;
-}
-
-std::vector<std::string> clip_doubts(const Clip& clip, const std::vector<BodyPart>& parts)
-{
-    return texts_of(clip_doubts(BodyFrames(clip, parts), parts).doubts);
+    std::vector<ClipDoubt> doubts = body_doubts(body);
+    if (body.count() > 0 && std::ranges::none_of(doubts, &ClipDoubt::is_up_wrong))
+        std::ranges::move(MotionJudge(body).judge(), std::back_inserter(doubts));
+    return doubts;
 }
 
 }  // namespace swivel::tools

@@ -56,8 +56,7 @@ std::optional<LimbRange> range_of(const formats::Clip& clip, const Limb& limb)
     LimbRange range{};
     range.bend = to_three_decimals(limb.bend);
     formats::LimbRest rest = limb.rest;
-    const Eigen::Vector3f bend = limb.as_solved(Vector3d(range.bend.stableNormalized())).cast<float>();
-    std::copy_n(bend.data(), 3, rest.bend);
+    put(limb.as_solved(Vector3d(range.bend.stableNormalized())), rest.bend);
     const Quaterniond arm_from_parent = quaternion(binding_of(rest).parent_from_arm).conjugate();
     std::vector<Vector3d> upper;
     Vector3d sum = Vector3d::Zero();

@@ -72,8 +72,6 @@ Vector3d mean_of(std::span<const Vector3d> axes)
     return sum / static_cast<double>(std::max<std::size_t>(axes.size(), 1));
 }
 
-double degrees_of_sine(double sine) { return std::asin(std::min(sine, 1.0)) * (180 / std::numbers::pi); }
-
 // A bend by the rest pose or by the clip.
 struct Said {
     Vector3d axis;     // as long as the sine of the bend
@@ -96,7 +94,8 @@ Said clip_says(std::span<const Vector3d> axes)
     const auto one_way = std::ranges::count_if(axes, [&](const Vector3d& axis) { return axis.dot(mean) > 0; });
     const bool is_steady = 10 * one_way >= kTenthsOneWay * std::ssize(axes);
     return {mean, mean.norm() > kSine30 && is_steady,
-            fmt::format("the clip, bent by {:.1f} degrees in the mean", degrees_of_sine(mean.norm()))};
+            fmt::format("the clip, bent by {:.1f} degrees in the mean",
+                        std::asin(std::min(mean.norm(), 1.0)) * (180 / std::numbers::pi))};
 }
 
 // Where flexion carries a lower bone that turns about the opposite of this axis: across the bone, unit.
@@ -257,31 +256,25 @@ using Eigen::Quaterniond;
 
 void check_lengths(const Clip& clip, const LimbJoints& joints, const ChainPose& rest)
 {
-    const double upper = rest.upper_bone().norm(), lower = rest.lower_bone().norm();
-    for (std::size_t n = 0; n < 2; ++n)
-        if (!((n == 0 ? upper : lower) > 1e-6 * (upper + lower)))
-            throw CannotBind(
-                fmt::format("the bone from '{}' to '{}' has no length", printable_name(joint_at(clip, joints[n])),
-                            printable_name(joint_at(clip, joints[n + 1]))),
-                fmt::format("give '{}' an OFFSET or translation where the figure is made, or name other joints",
-                            printable_name(joint_at(clip, joints[n + 1]))));
-}
-
-template <int size>
-void store(const Eigen::Matrix<double, size, 1>& v, float (&to)[size])
-{
-    for (int n = 0; n < size; ++n) to[n] = static_cast<float>(v[n]);
+    const double lengths[] = {rest.upper_bone().norm(), rest.lower_bone().norm()};
+    for (std::size_t n = 0; n < 2; ++n) {
+        if (lengths[n] > 1e-6 * (lengths[0] + lengths[1])) continue;
+        const std::string end = printable_name(joint_at(clip, joints[n + 1]));
+        throw CannotBind(
+            fmt::format("the bone from '{}' to '{}' has no length", printable_name(joint_at(clip, joints[n])), end),
+            fmt::format("give '{}' an OFFSET or translation where the figure is made, or name other joints", end));
+    }
 }
 
 formats::LimbRest rest_of(const ChainPose& pose, const Vector3d& bend)
 {
     formats::LimbRest rest;
-    store<4>(pose.turn[0].coeffs(), rest.shoulder_rotation);
-    store<4>((pose.turn[0].conjugate() * pose.turn[1]).coeffs(), rest.elbow_rotation);
-    store<4>((pose.turn[1].conjugate() * pose.turn[2]).coeffs(), rest.wrist_rotation);
-    store<3>(pose.upper_bone(), rest.elbow_offset);
-    store<3>(pose.lower_bone(), rest.wrist_offset);
-    store<3>(bend, rest.bend);
+    put(pose.turn[0].coeffs(), rest.shoulder_rotation);
+    put((pose.turn[0].conjugate() * pose.turn[1]).coeffs(), rest.elbow_rotation);
+    put((pose.turn[1].conjugate() * pose.turn[2]).coeffs(), rest.wrist_rotation);
+    put(pose.upper_bone(), rest.elbow_offset);
+    put(pose.lower_bone(), rest.wrist_offset);
+    put(bend, rest.bend);
     return rest;
 }
 
@@ -302,27 +295,17 @@ swivel_binding bind_rest(const formats::LimbRest& rest)
     }
 }
 
-// The arm frame's axes in the world, by those of the upper joint's parent.
-Eigen::Matrix3d axes_of(const swivel_binding& binding, const JointPose& parent_w)
-{
-    return (parent_w.rotation * quaternion(binding.parent_from_arm)).toRotationMatrix();
-}
-
-// The place of the user's bend, for people.
-std::string place_of(const GivenBend& given) { return fmt::format("{} of {}", given.key, given.file); }
-
 // The bend that the user gave the limb.
-const GivenBend* given_bend(std::span<const GivenBend> bends, const Limb& limb)
+std::optional<Bend> given_bend(std::span<const GivenBend> bends, LimbName limb, const Vector3d& upper)
 {
-    const auto is_its = [&](const GivenBend& each) { return each.limb == limb.name; };
-    const auto given = std::find_if(bends.begin(), bends.end(), is_its);
-    if (given == bends.end()) return nullptr;
-    const Vector3d& upper = limb.upper_bone;
+    const auto given = std::ranges::find(bends, limb, &GivenBend::limb);
+    if (given == bends.end()) return std::nullopt;
+    const std::string source = fmt::format("{} of {}", given->key, given->file);
     if (given->direction.cross(upper).norm() < 0.1)  // about 6 degrees: no one means that
-        throw CannotBind(fmt::format("its bend, {}, is along its upper bone ({:.3f} {:.3f} {:.3f})", place_of(*given),
-                                     upper.x(), upper.y(), upper.z()),
+        throw CannotBind(fmt::format("its bend, {}, is along its upper bone ({:.3f} {:.3f} {:.3f})", source, upper.x(),
+                                     upper.y(), upper.z()),
                          "give a direction across it");
-    return &*given;
+    return Bend{given->direction, source};
 }
 
 // Joints between two of the limb's keep their own motion, which may hardly move the later one. first, last: places of
@@ -395,19 +378,16 @@ Limb bind_limb(const Clip& clip, formats::LimbName name, const LimbJoints& joint
     limb.mirrored = parent_w.mirrored;
     limb.upper_bone = rest.upper_bone().normalized();
     limb.lower_bone = rest.lower_bone().normalized();
-    if (const GivenBend* const given = given_bend(bends, limb)) {
-        limb.bend = given->direction;
-        limb.bend_source = place_of(*given);
-    } else {
-        const Bend bend = choose_bend(clip, name, limb.chain, rest, parent_w, facing);
-        limb.bend = bend.direction;
-        limb.bend_source = bend.source;
+    const std::optional<Bend> given = given_bend(bends, name, limb.upper_bone);
+    const Bend bend = given ? *given : choose_bend(clip, name, limb.chain, rest, parent_w, facing);
+    limb.bend = bend.direction;
+    limb.bend_source = bend.source;
+    if (!given)
         if (std::string note = clip_against(clip, name, limb.chain, rest, bend.direction); !note.empty())
             limb.notes.push_back(std::move(note));
-    }
     limb.rest = solved_rest(limb, rest);
     limb.bound = bind_rest(limb.rest);
-    limb.axes_w = axes_of(limb.bound, parent_w);
+    limb.axes_w = (parent_w.rotation * quaternion(limb.bound.parent_from_arm)).toRotationMatrix();
     return limb;
 }
 

@@ -9,6 +9,7 @@
 #include "tools/formats/printable.h"
 #include "tools/formats/text.h"
 #include "tools/rig/limb_words.h"
+#include "tools/rig/name_search.h"
 #include "tools/rig/name_table.h"
 
 namespace swivel::tools {
@@ -48,34 +49,19 @@ int named_joint(const Clip& clip, const std::filesystem::path& file, const Named
     return found[0];
 }
 
-// Reads one limb that the user named.
-struct NameReader {
-    const Clip& clip;
-    const std::filesystem::path& file;  // the clip's
-    const LimbWords& words;
-    const NamedLimb& from;
-
-    [[noreturn]] void refuse(std::string_view cause, std::string_view advice) const
-    {
-        tools::refuse(from.source, file, cause, advice);
-    }
-    int joint(std::size_t n) const { return named_joint(clip, file, {from.joints[n], from.source}); }
-    LimbJoints joints() const
-    {
-        const std::string text = formats::printable(formats::joined(from.joints, ","), formats::kMaxQuoted);
-        if (from.joints.size() != 3)
-            refuse(fmt::format("'{}' does not name three joints", text), fmt::format("; write {}", words.joints));
-        const LimbJoints named{joint(0), joint(1), joint(2)};
-        if (!is_chain(clip, named))
-            refuse(fmt::format("'{}' does not name a joint, one below it and one below that", text),
-                   fmt::format("; write {}, from the body outwards", words.joints));
-        return named;
-    }
-};
-
-LimbFound& limb_of(FigureJoints& figure, LimbName name)
+LimbJoints named_joints(const Clip& clip, const std::filesystem::path& file, const LimbWords& words,
+                        const NamedLimb& named)
 {
-    return *std::find_if(figure.begin(), figure.end(), [&](const LimbFound& limb) { return limb.name == name; });
+    const std::string text = formats::printable(formats::joined(named.joints, ","), formats::kMaxQuoted);
+    if (named.joints.size() != 3)
+        refuse(named.source, file, fmt::format("'{}' does not name three joints", text),
+               fmt::format("; write {}", words.joints));
+    LimbJoints joints;
+    for (std::size_t n = 0; n < 3; ++n) joints[n] = named_joint(clip, file, {named.joints[n], named.source});
+    if (!is_chain(clip, joints))
+        refuse(named.source, file, fmt::format("'{}' does not name a joint, one below it and one below that", text),
+               fmt::format("; write {}, from the body outwards", words.joints));
+    return joints;
 }
 
 // Puts the limbs that the user names of one kind in the place of those that were found.
@@ -85,10 +71,11 @@ void put_named(const Clip& clip, const std::filesystem::path& file, const LimbCh
     const LimbWords& words = words_of(kind);
     Side otherwise = Side::left;
     for (const NamedLimb& named : choice.named(kind)) {
-        if (named.source.is_file() && limb_of(figure, {kind, *named.side}).named_by) continue;  // options override it
-        const LimbJoints at = NameReader{clip, file, words, named}.joints();
+        if (named.source.is_file() && figure[formats::index_of({kind, *named.side})].named_by)
+            continue;  // options override it
+        const LimbJoints at = named_joints(clip, file, words, named);
         const Side side = named.side ? *named.side : side_of(joint_at(clip, at[0]).name, otherwise);
-        LimbFound& limb = limb_of(figure, {kind, side});
+        LimbFound& limb = figure[formats::index_of({kind, side})];
         if (limb.named_by)
             throw InputError(file, fmt::format("two {} are taken as {}; write {} left:... and {} right:...",
                                                words.limbs, side_name(side), words.option, words.option));
@@ -113,18 +100,16 @@ void keep_apart(const Clip& clip, const std::filesystem::path& file, FigureJoint
                        fmt::format("the {} and the {} share the joint '{}'", plain_name(other.name),
                                    plain_name(limb.name), name),
                        "; each needs three of its own");
-            limb.joints = {{},
-                           {},
-                           fmt::format("'{}' is {} for the {}{}", name, other.named_by ? "named" : "found",
-                                       plain_name(other.name), other.named_by ? "" : ", too"),
-                           {}};
+            limb.joints = no_joints(fmt::format("'{}' is {} for the {}{}", name, other.named_by ? "named" : "found",
+                                                plain_name(other.name), other.named_by ? "" : ", too"));
         }
 }
 
-// The message about a limb that no name speaks of.
-FoundJoints explained(const Clip& clip, FoundJoints found)
+// The joints of a limb; throws CannotBind if there are none.
+LimbJoints require_joints(const Clip& clip, const FoundJoints& found)
 {
-    if (found.joints || !found.problem.empty()) return found;
+    if (found.joints) return *found.joints;
+    if (!found.problem.empty()) throw CannotBind(found.problem, found.advice);
     std::vector<int> depth(clip.joints.size(), 0);
     int deepest = 0;
     for (std::size_t n = 0; n < depth.size(); ++n) {
@@ -132,11 +117,10 @@ FoundJoints explained(const Clip& clip, FoundJoints found)
         depth[n] = (parent < 0 ? 0 : depth[static_cast<std::size_t>(parent)]) + clip.joints[n].is_bone;
         deepest = std::max(deepest, depth[n]);
     }
-    if (deepest >= 3) return {{}, {}, "no joints have names in use for such a limb", {}};
-    return {{},
-            {},
-            fmt::format("a limb takes three bones below each other, and this skeleton has at most {}", deepest),
-            "choose a figure's file"};
+    if (deepest >= 3) throw CannotBind("no joints have names in use for such a limb", "");
+    throw CannotBind(
+        fmt::format("a limb takes three bones below each other, and this skeleton has at most {}", deepest),
+        "choose a figure's file");
 }
 
 LimbFinding finding_of(const Clip& clip, const LimbChoice& choice, const Facing& facing, const LimbFound& found)
@@ -144,14 +128,8 @@ LimbFinding finding_of(const Clip& clip, const LimbChoice& choice, const Facing&
     const auto is_of_limb = [&](const GivenBend& bend) { return bend.limb == found.name; };
     const bool is_named = found.named_by || std::any_of(choice.bends.begin(), choice.bends.end(), is_of_limb);
     LimbFinding finding{found.name, {}, {}, {}, found.joints.joints.has_value(), is_named};
-    if (!finding.has_joints) {
-        const FoundJoints why = explained(clip, found.joints);
-        finding.problem = why.problem;
-        finding.advice = why.advice;
-        return finding;
-    }
     try {
-        finding.limb = bind_limb(clip, found.name, *found.joints.joints, facing, choice.bends);
+        finding.limb = bind_limb(clip, found.name, require_joints(clip, found.joints), facing, choice.bends);
         finding.limb->from = found.joints.from;
     } catch (const CannotBind& fault) {
         finding.problem = fault.what();
@@ -161,6 +139,35 @@ LimbFinding finding_of(const Clip& clip, const LimbChoice& choice, const Facing&
 }
 
 }  // namespace
+
+NamedLimb limb_of_option(std::string_view text, std::string_view option)
+{
+    NamedLimb limb{{}, std::nullopt, {std::string(option)}};
+    for (const formats::Side side : {formats::Side::left, formats::Side::right}) {
+        const std::string prefix = fmt::format("{}:", side_name(side));
+        if (!text.starts_with(prefix)) continue;
+        limb.side = side;
+        text.remove_prefix(prefix.size());
+    }
+    for (std::size_t comma; (comma = text.find(',')) != std::string_view::npos; text.remove_prefix(comma + 1))
+        limb.joints.emplace_back(text.substr(0, comma));
+    limb.joints.emplace_back(text);
+    return limb;
+}
+
+bool LimbChoice::looks_for(formats::LimbKind kind) const
+{
+    if (!kinds.empty()) return kinds == "all" || kinds == words_of(kind).limbs;
+    return kind == formats::LimbKind::arm && arms.empty() && legs.empty();
+}
+
+std::string kinds_words(const LimbChoice& choice)
+{
+    const Source& source = choice.kinds_source;
+    if (!source.is_file()) return fmt::format("{} {}", source.key, choice.kinds);
+    return fmt::format("{} = \"{}\" in line {} of {}", source.key, choice.kinds, source.line,
+                       formats::printable(source.file.string(), std::string::npos));
+}
 
 std::string problem_text(const LimbFinding& finding)
 {

@@ -4,9 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 #include <map>
 #include <set>
+#include <string>
+#include <unordered_map>
 
 #include "tools/formats/printable.h"
 #include "tools/rig/joint_names.h"
@@ -21,6 +22,25 @@ using formats::Clip;
 using formats::LimbName;
 
 constexpr std::size_t kMaxCandidates = 4;  // that a message lists
+
+// A skeleton's joints by their plain names, without those of repeated figures.
+struct NamedJoints {
+    const Clip& clip;
+    std::vector<std::string> names{};  // of each joint
+    std::unordered_map<std::string, std::vector<int>> bearers{};
+
+    const std::string& name(int joint) const { return names[static_cast<std::size_t>(joint)]; }
+    bool is_bone(int joint) const { return joint_at(clip, joint).is_bone; }
+    // In the clip's order. Bones alone, where any has that name.
+    std::vector<int> named(const std::string& plain_name) const
+    {
+        const auto found = bearers.find(plain_name);
+        if (found == bearers.end()) return {};
+        std::vector<int> bones = found->second;
+        std::erase_if(bones, [&](int joint) { return !is_bone(joint); });
+        return bones.empty() ? found->second : bones;
+    }
+};
 
 // One row with one side: the joints with its three names.
 struct Attempt {
@@ -133,7 +153,7 @@ struct NameSearch {
     {
         const int parent = joint_at(joints.clip, at[n]).parent;
         const std::string on = parent < 0 ? "is a root" : fmt::format("hangs on '{}'", shown(parent));
-        FoundJoints made{{}, {}, fmt::format("'{}' {}, not below '{}'", shown(at[n]), on, shown(at[n - 1])), {}};
+        FoundJoints made = no_joints(fmt::format("'{}' {}, not below '{}'", shown(at[n]), on, shown(at[n - 1])));
         at[n] = twin_below(at[n - 1], at[n]);
         if (at[n] >= 0 && is_chain(joints.clip, at))
             made.advice = fmt::format("at rest '{}' lies in the same place: {}", shown(at[n]), option(at));
@@ -142,19 +162,18 @@ struct NameSearch {
     // Why joints with these names make no limb.
     FoundJoints problem_of(const Attempt& made) const
     {
-        const auto problem = [](std::string text) { return FoundJoints{{}, {}, std::move(text), {}}; };
         const LimbWords& words = words_of(limb.kind);
         const std::string_view parts[] = {words.upper_joint, words.lower_joint, words.end_joint};
         for (std::size_t n = 0; n < 3; ++n)
             if (made.bearers[n].empty())
-                return problem(fmt::format("no joint is called '{}' or alike for its {}", made.names[n], parts[n]));
+                return no_joints(fmt::format("no joint is called '{}' or alike for its {}", made.names[n], parts[n]));
         const LimbJoints first = {made.bearers[0][0], made.bearers[1][0], made.bearers[2][0]};
         for (std::size_t n = 0; n < 2; ++n)
             if (!is_above(joints.clip, first[n], first[n + 1])) return not_below(first, n + 1);
         if (const int rival = rival_between(made, first); rival >= 0)
-            return problem(fmt::format("'{}' lies between '{}' and '{}', and may be one of its joints", shown(rival),
-                                       shown(first[0]), shown(first[2])));
-        return problem(fmt::format("'{}' and what is below it are no bones of the file's skin", shown(first[0])));
+            return no_joints(fmt::format("'{}' lies between '{}' and '{}', and may be one of its joints", shown(rival),
+                                         shown(first[0]), shown(first[2])));
+        return no_joints(fmt::format("'{}' and what is below it are no bones of the file's skin", shown(first[0])));
     }
 
     FoundJoints several(const std::vector<LimbJoints>& limbs) const
@@ -163,49 +182,10 @@ struct NameSearch {
         for (const LimbJoints& at : limbs)
             list += fmt::format("{}{} > {} > {} ({})", list.empty() ? "" : " and ", shown(at[0]), shown(at[1]),
                                 shown(at[2]), numbers(at));
-        return {{},
-                {},
-                "more than one fits: " + formats::printable(list, formats::kMaxQuoted),
-                "name one, such as " + option(limbs[0])};
+        return no_joints("more than one fits: " + formats::printable(list, formats::kMaxQuoted),
+                         "name one, such as " + option(limbs[0]));
     }
 };
-
-}  // namespace
-
-std::vector<bool> repeated_joints(const Clip& clip)
-{
-    std::vector<std::size_t> roots;            // of each joint
-    std::map<std::size_t, std::string> below;  // all names of bones below a root
-    for (std::size_t n = 0; n < clip.joints.size(); ++n) {
-        const int parent = clip.joints[n].parent;
-        roots.push_back(parent < 0 ? n : roots[static_cast<std::size_t>(parent)]);
-        if (parent >= 0 && clip.joints[n].is_bone) below[roots[n]] += clip.joints[n].name + '\n';
-    }
-    std::set<std::string> seen;
-    std::vector<bool> is_repeated(clip.joints.size());
-    for (const auto& [root, names] : below) is_repeated[root] = !seen.insert(names).second;
-    for (std::size_t n = 0; n < roots.size(); ++n) is_repeated[n] = is_repeated[roots[n]];
-    return is_repeated;
-}
-
-NamedJoints::NamedJoints(const Clip& skeleton) : clip(skeleton)
-{
-    const std::vector<bool> is_repeated = repeated_joints(clip);
-    for (std::size_t n = 0; n < clip.joints.size(); ++n) {
-        names.push_back(plain(clip.joints[n].name));
-        if (!is_repeated[n]) bearers[names.back()].push_back(static_cast<int>(n));
-    }
-}
-
-std::vector<int> NamedJoints::named(const std::string& plain_name) const
-{
-    const auto found = bearers.find(plain_name);
-    if (found == bearers.end()) return {};
-    std::vector<int> bones;
-    std::copy_if(found->second.begin(), found->second.end(), std::back_inserter(bones),
-                 [&](int joint) { return is_bone(joint); });
-    return bones.empty() ? found->second : bones;
-}
 
 FoundJoints joints_by_name(const NamedJoints& joints, LimbName limb)
 {
@@ -233,6 +213,58 @@ FoundJoints joints_by_name(const NamedJoints& joints, LimbName limb)
     if (limbs.size() == 1) return {limbs[0], std::string(from), {}, {}};
     // One name alone proves nothing: half the world has a "LeftHand".
     return nearest.borne() > 1 ? search.problem_of(nearest) : FoundJoints();
+}
+
+// The joints that VRM calls so, if it knows any of the three.
+std::optional<FoundJoints> said_joints(const Clip& clip, LimbName limb)
+{
+    const std::array<std::string, 3> words = vrm_words(limb);
+    LimbJoints joints;
+    std::string problem;
+    for (std::size_t n = 0; n < joints.size(); ++n) {
+        joints[n] = vrm_joint(clip, words[n]);
+        if (joints[n] < 0) problem = fmt::format("the file's humanoid has no {}", words[n]);
+    }
+    if (std::ranges::max(joints) < 0) return std::nullopt;
+    if (!problem.empty()) return no_joints(problem);
+    if (!is_chain(clip, joints))
+        return no_joints("the joints of the file's humanoid for it do not lie above one another");
+    return FoundJoints{joints, "the file's humanoid", {}, {}};
+}
+
+}  // namespace
+
+std::vector<bool> repeated_joints(const Clip& clip)
+{
+    std::vector<std::size_t> roots;            // of each joint
+    std::map<std::size_t, std::string> below;  // all names of bones below a root
+    for (std::size_t n = 0; n < clip.joints.size(); ++n) {
+        const int parent = clip.joints[n].parent;
+        roots.push_back(parent < 0 ? n : roots[static_cast<std::size_t>(parent)]);
+        if (parent >= 0 && clip.joints[n].is_bone) below[roots[n]] += clip.joints[n].name + '\n';
+    }
+    std::set<std::string> seen;
+    std::vector<bool> is_repeated(clip.joints.size());
+    for (const auto& [root, names] : below) is_repeated[root] = !seen.insert(names).second;
+    for (std::size_t n = 0; n < roots.size(); ++n) is_repeated[n] = is_repeated[roots[n]];
+    return is_repeated;
+}
+
+std::array<FoundJoints, 4> joints_by_file(const Clip& clip)
+{
+    NamedJoints named{clip};
+    const std::vector<bool> is_repeated = repeated_joints(clip);
+    for (std::size_t n = 0; n < clip.joints.size(); ++n) {
+        named.names.push_back(plain(clip.joints[n].name));
+        if (!is_repeated[n]) named.bearers[named.names.back()].push_back(static_cast<int>(n));
+    }
+    std::array<FoundJoints, 4> found;
+    for (std::size_t n = 0; n < found.size(); ++n) {
+        const LimbName limb = formats::kLimbNames[n];
+        std::optional<FoundJoints> said = said_joints(clip, limb);
+        found[n] = said ? std::move(*said) : joints_by_name(named, limb);
+    }
+    return found;
 }
 
 }  // namespace swivel::tools

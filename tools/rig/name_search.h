@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// Finds a limb's joints by the table of names.
+// Finds limbs' joints by the file's own data, or else by the table of names. Knows clips alone.
 #pragma once
 
-#include <string>
-#include <unordered_map>
+#include <array>
 #include <vector>
 
 #include "tools/rig/limb_joints.h"
@@ -15,21 +14,13 @@ namespace swivel::tools {
 // same names in the same order.
 std::vector<bool> repeated_joints(const formats::Clip& clip);
 
-// A skeleton's joints by their plain names, without those of repeated figures.
-struct NamedJoints {
-    const formats::Clip& clip;
-    std::vector<std::string> names;  // of each joint
-    std::unordered_map<std::string, std::vector<int>> bearers;
-
-    explicit NamedJoints(const formats::Clip& skeleton);
-
-    const std::string& name(int joint) const { return names[static_cast<std::size_t>(joint)]; }
-    bool is_bone(int joint) const { return joint_at(clip, joint).is_bone; }
-    // In the clip's order. Bones alone, where any has that name.
-    std::vector<int> named(const std::string& plain_name) const;
-};
-
-// See joints_by_file().
-FoundJoints joints_by_name(const NamedJoints& joints, formats::LimbName limb);
+// The joints of the four limbs, in the order of formats::kLimbNames. A file that says which joints are a limb's is
+// believed (Clip::human_bones). Otherwise the table of names decides: a row fits if its three names are borne by joints
+// above one another, bones before other nodes, one of them a bone. The first row that fits counts. Further limbs of
+// that row, and limbs of other rows that share no joint with it, are candidates, too; more than one candidate is a
+// problem that lists them. No joint between the three may have a name that the table knows for the upper or lower joint
+// of such a limb, because it would be that joint. Where figures repeat each other, the first is searched. Takes memory
+// and time in proportion to the joints.
+std::array<FoundJoints, 4> joints_by_file(const formats::Clip& clip);
 
 }  // namespace swivel::tools

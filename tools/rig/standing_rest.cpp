@@ -31,17 +31,14 @@ class UprightParts {
 public:
     UprightParts(const Clip& clip, const KnownLimbs& limbs)
     {
-        const std::vector<int> head = joints_of(body_parts(clip, limbs), "head");
         for (const std::size_t arm : {0u, 1u})
             if (limbs[arm]) tops_.push_back((*limbs[arm])[0]);
-        if (tops_.size() < 2) tops_ = head;
+        if (tops_.size() < 2) tops_ = joints_of(body_parts(clip, limbs), "head");
         for (const std::size_t leg : {2u, 3u})
             if (limbs[leg]) {
-                legs_.push_back(*limbs[leg]);
-                chains_.emplace_back(limbs[leg]->begin(), limbs[leg]->end());
-                if (const std::vector<int> toes = toes_of(clip, formats::kLimbNames[leg].side, legs_.back()[2]);
-                    !toes.empty())
-                    chains_.back().push_back(toes[0]);
+                legs_.emplace_back(limbs[leg]->begin(), limbs[leg]->end());
+                if (const int toe = toe_of(clip, formats::kLimbNames[leg].side, legs_.back()[2]); toe >= 0)
+                    legs_.back().push_back(toe);
             }
     }
 
@@ -57,7 +54,7 @@ public:
         double min = 1;
         const auto add = [&](const Vector3d& way_w) { min = std::min(min, way_w.normalized().dot(up_w)); };
         if (!tops_.empty()) add(top_w(pose_w) - middle_w(pose_w, 0));
-        for (const LimbJoints& leg : legs_) {
+        for (const std::vector<int>& leg : legs_) {
             add(position_of(pose_w, leg[0]) - position_of(pose_w, leg[1]));
             add(position_of(pose_w, leg[1]) - position_of(pose_w, leg[2]));
         }
@@ -67,7 +64,7 @@ public:
     std::string problem(const Poses& pose_w, const Vector3d& up_w) const
     {
         Vector3d other_w = Vector3d::Zero();
-        for (const LimbJoints& leg : legs_) {
+        for (const std::vector<int>& leg : legs_) {
             const Vector3d down_w = (position_of(pose_w, leg[2]) - position_of(pose_w, leg[0])).normalized();
             if (down_w.dot(up_w) > kLeaning) return "a foot is above its hip";
             if (down_w.dot(other_w) < -kLeaning) return "the legs point apart";
@@ -81,13 +78,13 @@ public:
         if (legs_.size() < 2) return 0;
         const Vector3d across_w = (position_of(pose_w, legs_[0][0]) - position_of(pose_w, legs_[1][0])).normalized();
         double max_deg = 0;
-        for (std::size_t n = 0; n + 1 < std::min(chains_[0].size(), chains_[1].size()); ++n) {
-            const auto bone_w = [&](const std::vector<int>& chain) -> Vector3d {
-                return position_of(pose_w, chain[n + 1]) - position_of(pose_w, chain[n]);
+        for (std::size_t n = 0; n + 1 < std::min(legs_[0].size(), legs_[1].size()); ++n) {
+            const auto bone_w = [&](const std::vector<int>& leg) -> Vector3d {
+                return position_of(pose_w, leg[n + 1]) - position_of(pose_w, leg[n]);
             };
-            const Vector3d left_w = bone_w(chains_[0]);
+            const Vector3d left_w = bone_w(legs_[0]);
             const Vector3d image_w = left_w - 2 * left_w.dot(across_w) * across_w;
-            max_deg = std::max(max_deg, degrees_between(image_w, bone_w(chains_[1])));
+            max_deg = std::max(max_deg, degrees_between(image_w, bone_w(legs_[1])));
         }
         return max_deg;
     }
@@ -97,7 +94,7 @@ private:
     Vector3d middle_w(const Poses& pose_w, std::size_t part) const
     {
         Vector3d sum_w = Vector3d::Zero();
-        for (const LimbJoints& leg : legs_) sum_w += position_of(pose_w, leg[part]);
+        for (const std::vector<int>& leg : legs_) sum_w += position_of(pose_w, leg[part]);
         return sum_w / std::max(1.0, static_cast<double>(legs_.size()));
     }
     Vector3d top_w(const Poses& pose_w) const
@@ -108,9 +105,8 @@ private:
         return sum_w / static_cast<double>(tops_.size());
     }
 
-    std::vector<int> tops_;  // both shoulders, or else the head
-    std::vector<LimbJoints> legs_;
-    std::vector<std::vector<int>> chains_;  // of each leg, with the toes where they are known
+    std::vector<int> tops_;               // both shoulders, or else the head
+    std::vector<std::vector<int>> legs_;  // hip, knee and ankle, and the toe where it is known
 };
 
 // The mean direction from feet to shoulders in all frames, the shorter the less they agree; zero where no leg is known.
@@ -132,15 +128,10 @@ std::string problem_of_up(const Vector3d& axis_w, const Vector3d& height_w)
 // The number of frames where none is upright.
 std::size_t most_upright_frame(const Clip& clip, const UprightParts& body, const Vector3d& up_w)
 {
-    double max = kLeaning;
-    std::size_t best = clip.frame_count;
-    for (std::size_t frame = 0; frame < clip.frame_count; ++frame) {
-        const double uprightness = body.uprightness(formats::world_pose(clip, frame), up_w);
-        if (uprightness <= max) continue;
-        max = uprightness;
-        best = frame;
-    }
-    return best;
+    Peak best{clip.frame_count, kLeaning};
+    for (std::size_t frame = 0; frame < clip.frame_count; ++frame)
+        best.raise(frame, body.uprightness(formats::world_pose(clip, frame), up_w));
+    return best.frame;
 }
 
 // Turns a joint, and all below it, at rest.
@@ -154,51 +145,38 @@ void turn_at_rest(Clip& clip, int joint, const Quaterniond& turn_w)
     rotation = ((above_w.mirrored ? formats::mirrored(turn) : turn) * rotation).normalized();
 }
 
-// A pose in mid-step made one to start from: the figure faces the front, its hips, shoulders and feet are square to it,
-// and all bones of its back are upright, from the lowest joint of the spine to the head.
-class Straightener {
-public:
-    Straightener(Clip& clip, const KnownLimbs& limbs, const Vector3d& up_w) : clip_(clip), limbs_(limbs), up_w_(up_w) {}
-
-    void straighten()
-    {
-        const std::vector<BodyPart> parts = body_parts(clip_, limbs_);
-        const std::vector<int> hips = joints_of(parts, "hips"), spine = joints_of(parts, "spine");
-        if (!has(0) || !has(2) || hips.empty() || spine.empty()) return;  // there is no trunk
-        int root = hips[0];
-        while (joint_at(clip_, root).parent >= 0) root = joint_at(clip_, root).parent;
-        const Vector3d front_w = up_w_.z() == 0 ? Vector3d::UnitZ() : Vector3d(-Vector3d::UnitY());
-        const bool is_mirrored = formats::rest_pose(clip_)[static_cast<std::size_t>(hips[0])].mirrored;
-        turn_at_rest(clip_, root, yaw(to_left_w(2), (is_mirrored ? -1 : 1) * up_w_.cross(front_w)));
-        std::vector<int> back = spine;
-        for (const char* part : {"neck", "head"})
-            for (const int joint : joints_of(parts, part)) back.push_back(joint);
-        for (std::size_t n = 0; n + 1 < back.size(); ++n)
-            turn_at_rest(clip_, back[n], aim(position_w(back[n + 1]) - position_w(back[n]), up_w_));
-        turn_at_rest(clip_, spine.back(), yaw(to_left_w(0), to_left_w(2)));
-        for (const std::size_t leg : {2u, 3u}) {
-            const int foot = (*limbs_[leg])[2];
-            const std::vector<int> toes = toes_of(clip_, formats::kLimbNames[leg].side, foot);
-            if (!toes.empty()) turn_at_rest(clip_, foot, yaw(position_w(toes[0]) - position_w(foot), front_w));
-        }
-    }
-
-private:
-    bool has(std::size_t pair) const { return limbs_[pair] && limbs_[pair + 1]; }
-    Vector3d position_w(int joint) const { return position_of(formats::rest_pose(clip_), joint); }
-    Vector3d start_w(std::size_t limb) const { return position_w((*limbs_[limb])[0]); }
-    Vector3d to_left_w(std::size_t pair) const { return start_w(pair) - start_w(pair + 1); }
+// Makes a pose in mid-step one to start from: the figure faces the front, its hips, shoulders and feet are square to
+// it, and all bones of its back are upright, from the lowest joint of the spine to the head.
+void straighten(Clip& clip, const KnownLimbs& limbs, const Vector3d& up_w)
+{
+    const std::vector<BodyPart> parts = body_parts(clip, limbs);
+    const int hips = first_joint(parts, "hips");
+    const std::vector<int> spine = joints_of(parts, "spine");
+    const bool has_trunk = limbs[0] && limbs[1] && limbs[2] && limbs[3] && hips >= 0 && !spine.empty();
+    if (!has_trunk) return;
+    const auto position_w = [&](int joint) -> Vector3d { return position_of(formats::rest_pose(clip), joint); };
+    const auto to_left_w = [&](std::size_t pair) -> Vector3d {
+        return position_w((*limbs[pair])[0]) - position_w((*limbs[pair + 1])[0]);
+    };
     // The turn about up that brings the level part of one direction to that of the other.
-    Quaterniond yaw(const Vector3d& from_w, const Vector3d& to_w) const
-    {
-        const double along = from_w.dot(to_w) - from_w.dot(up_w_) * to_w.dot(up_w_);
-        return Quaterniond(Eigen::AngleAxisd(std::atan2(up_w_.dot(from_w.cross(to_w)), along), up_w_));
+    const auto yaw = [&](const Vector3d& from_w, const Vector3d& to_w) {
+        const double along = from_w.dot(to_w) - from_w.dot(up_w) * to_w.dot(up_w);
+        return Quaterniond(Eigen::AngleAxisd(std::atan2(up_w.dot(from_w.cross(to_w)), along), up_w));
+    };
+    const Vector3d front_w = up_w.z() == 0 ? Vector3d::UnitZ() : Vector3d(-Vector3d::UnitY());
+    const bool is_mirrored = formats::rest_pose(clip)[static_cast<std::size_t>(hips)].mirrored;
+    turn_at_rest(clip, root_of(clip, hips), yaw(to_left_w(2), (is_mirrored ? -1 : 1) * up_w.cross(front_w)));
+    std::vector<int> back = spine;
+    for (const char* part : {"neck", "head"})
+        for (const int joint : joints_of(parts, part)) back.push_back(joint);
+    for (std::size_t n = 0; n + 1 < back.size(); ++n)
+        turn_at_rest(clip, back[n], aim(position_w(back[n + 1]) - position_w(back[n]), up_w));
+    turn_at_rest(clip, spine.back(), yaw(to_left_w(0), to_left_w(2)));
+    for (const std::size_t leg : {2u, 3u}) {
+        const int foot = (*limbs[leg])[2], toe = toe_of(clip, formats::kLimbNames[leg].side, foot);
+        if (toe >= 0) turn_at_rest(clip, foot, yaw(position_w(toe) - position_w(foot), front_w));
     }
-
-    Clip& clip_;
-    const KnownLimbs& limbs_;
-    const Vector3d up_w_;
-};
+}
 
 // The joints rest as in this frame, straightened.
 void take_frame(Clip& clip, const KnownLimbs& limbs, std::size_t frame, const Vector3d& up_w)
@@ -208,7 +186,7 @@ void take_frame(Clip& clip, const KnownLimbs& limbs, std::size_t frame, const Ve
         joint.unkeyed = pose_without_keys(joint);
         joint.rest_rotation = clip.rotation[frame * clip.joints.size() + n];
     }
-    Straightener(clip, limbs, up_w).straighten();
+    straighten(clip, limbs, up_w);
 }
 
 // The median ratio of the limbs' bone lengths, first frame to rest, without bones of no length in that frame. Infinite
@@ -263,15 +241,15 @@ std::string stand_at_rest(Clip& clip, const KnownLimbs& limbs, const RestChoice&
 
 std::string size_at_rest(Clip& clip, const KnownLimbs& limbs)
 {
-    const std::vector<int> hips = joints_of(body_parts(clip, limbs), "hips");
-    if (hips.empty() || clip.frame_count == 0) return {};
+    const int hips = first_joint(body_parts(clip, limbs), "hips");
+    if (hips < 0 || clip.frame_count == 0) return {};
     const double change = change_of_length(clip, limbs);
     if (std::abs(change - 1) <= kChanged) return {};
     for (std::size_t n = 0; n < clip.joints.size(); ++n) {
         formats::Joint& joint = clip.joints[n];
         joint.unkeyed = pose_without_keys(joint);
-        if (is_above(clip, hips[0], static_cast<int>(n))) joint.offset = formats::local_translation(clip, 0, n);
-        if (joint.scale_track >= 0) joint.rest_scale = clip.scale[static_cast<std::size_t>(joint.scale_track)];
+        if (is_above(clip, hips, static_cast<int>(n))) joint.offset = formats::local_translation(clip, 0, n);
+        joint.rest_scale = formats::local_scale(clip, 0, n);
     }
     return std::isinf(change)
                ? "at rest the clip's bones have no length; those of its first frame are taken"

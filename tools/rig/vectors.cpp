@@ -36,6 +36,24 @@ double quantile(std::vector<double> values, double share)
     return *at;
 }
 
+std::vector<double> course_above(std::vector<double> values, double max_step)
+{
+    for (std::size_t n = 1; n < values.size(); ++n) values[n] = std::max(values[n], values[n - 1] - max_step);
+    for (std::size_t n = values.size(); n-- > 1;) values[n - 1] = std::max(values[n - 1], values[n] - max_step);
+    return values;
+}
+
+std::vector<double> eased(const std::vector<double>& values, double max_step)
+{
+    std::vector<double> turned = values;
+    for (double& value : turned) value = -value;
+    std::vector<double> above = course_above(values, max_step);
+    const std::vector<double> below = course_above(std::move(turned), max_step);
+    for (std::size_t n = 0; n < above.size(); ++n)
+        if (above[n] != -below[n]) above[n] = (above[n] - below[n]) / 2;
+    return above;
+}
+
 Eigen::Vector3d to_three_decimals(const Eigen::Vector3d& v) { return (1000 * v).array().round() / 1000 + 0.0; }
 
 std::string vector_text(const Eigen::Vector3d& v)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Angles between directions, ranks of numbers, numbers for people, and vectors as arrays.
+// Angles between directions, ranks and courses of numbers, numbers for people, and vectors as arrays.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -40,6 +40,24 @@ std::optional<Eigen::Vector3d> axis_of(std::string_view name);
 
 // The quantile of this share, 0 to 1. values: one or more.
 double quantile(std::vector<double> values, double share);
+
+// The largest of some values above 0, and its frame.
+struct Peak {
+    std::size_t frame = 0;
+    double value = 0;
+
+    void raise(std::size_t at, double to)
+    {
+        if (to > value) *this = {at, to};
+    }
+};
+
+// The lowest course above the values that changes by at most max_step a frame.
+std::vector<double> course_above(std::vector<double> values, double max_step);
+
+// The values, changed so that neighbours differ by at most max_step: halfway between the lowest such course above them
+// and the highest one below. Values far enough from a jump stay as they are.
+std::vector<double> eased(const std::vector<double>& values, double max_step);
 
 // For people to read, without a -0.
 Eigen::Vector3d to_three_decimals(const Eigen::Vector3d& v);

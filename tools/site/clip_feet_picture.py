@@ -14,6 +14,7 @@ import numpy as np
 
 INK, GREY, RED, GREEN = "#22324a", "#5b6b80", "#b93a2b", "#23834a"
 LEGS = [[side + joint for joint in ("UpLeg", "Leg", "Foot", "ToeBase")] for side in ("Left", "Right")]
+JOINTS = re.compile(r"(ROOT|JOINT|End)\s+(\S+)\s*\{\s*OFFSET\s+(\S+)\s+(\S+)\s+(\S+)(?:\s+CHANNELS\s+\d+((?:\s+[XYZ]\w+)+))?|\}")
 BONES = r"((?:JOINT|ROOT) (?:Left|Right)(?:Leg|Foot)\s*\{\s*OFFSET) (\S+) (\S+) (\S+)"
 
 
@@ -22,33 +23,23 @@ def scaled(text, legs):
 
 
 def rotation(axis, degrees):
-    angle = np.radians(degrees)
-    turn = np.eye(3)
-    i, j = [n for n in range(3) if n != "XYZ".index(axis)]
-    sign = -1 if axis == "Y" else 1
-    turn[i, i] = turn[j, j] = np.cos(angle)
-    turn[i, j], turn[j, i] = -sign * np.sin(angle), sign * np.sin(angle)
+    turn, (i, j) = np.eye(3), {"X": (1, 2), "Y": (2, 0), "Z": (0, 1)}[axis]
+    cos, sin = np.cos(np.radians(degrees)), np.sin(np.radians(degrees))
+    turn[[i, i, j, j], [i, j, i, j]] = cos, -sin, sin, cos
     return turn
 
 
 def places(text):
     """Of each frame: joint -> place."""
     head, motion = text.split("MOTION")
-    joints, open_joints, name = {}, [], None  # name -> parent, offset, channels
-    words = iter(head.split())
-    for word in words:
-        if word in ("ROOT", "JOINT", "End"):
-            name = next(words) if word != "End" else None
-        elif word == "{":
-            open_joints.append(name)
-        elif word == "}":
+    joints, open_joints = {}, [None]  # name -> parent, offset, channels
+    for kind, name, *offset, channels in JOINTS.findall(head):
+        if not kind:  # a closing brace
             open_joints.pop()
-        elif word == "OFFSET":
-            offset = np.array([float(next(words)) for _ in range(3)])
-            if name:
-                joints[name] = [open_joints[-2] if len(open_joints) > 1 else None, offset, []]
-        elif word == "CHANNELS":
-            joints[name][2] = [next(words) for _ in range(int(next(words)))]
+            continue
+        if kind != "End":
+            joints[name] = open_joints[-1], np.array(offset, float), channels.split()
+        open_joints.append(name)
     for line in motion.strip().splitlines()[2:]:
         values, at = iter(map(float, line.split())), {}
         for joint, (parent, offset, channels) in joints.items():

@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "tools/crowd/crowd_plan.h"
-#include "tools/rig/vectors.h"
 
 namespace swivel::tools {
 
@@ -52,7 +51,7 @@ CachedCrowd cached_clip(const ClipNames& names, const formats::Clip& clip, std::
                         const CrowdPlan& plan, const ClipMotion& motion)
 {
     const std::vector<std::size_t> drawn = drawn_joints(clip, limbs, plan);
-    const std::vector<LimbSetup> setups = limb_setups(limbs, plan);
+    const std::vector<LimbSetup> setups = limb_setups(plan);
     CachedCrowd crowd;
     crowd.title = names.title;
     crowd.clip = names.clip;

@@ -27,38 +27,34 @@ namespace {
 
 void add_demo(CLI::App& app)
 {
-    CLI::App* command = app.add_subcommand("demo", "Solve a made-up crowd and report throughput, errors and flags");
-    auto options = std::make_shared<DemoOptions>();
-    add_characters(*command, options->characters, ", two arms each")->capture_default_str();
-    takes(command->add_option("--frames", options->frames, "Frames, 1 to 1 million")->capture_default_str(),
-          whole_number(1, 1'000'000));
-    add_seed(*command, options->seed, "the characters' differences");
-    add_view(*command, options->view);
-    add_threads(*command, options->threads);
-    add_quiet(*command, options->quiet);
-    add_json(*command, options->json);
-    command->callback([options] { run_demo(*options); });
+    const auto [command, options] =
+        add_command(app, "demo", "Solve a made-up crowd and report throughput, errors and flags", run_demo);
+    add_characters(command, options.characters, ", two arms each")->capture_default_str();
+    add_value(command, "--frames", options.frames, whole_number(1, 1'000'000), "Frames, 1 to 1 million")
+        ->capture_default_str();
+    add_seed(command, options.seed, "the characters' differences");
+    add_view(command, options.view);
+    add_threads(command, options.threads);
+    add_quiet(command, options.quiet);
+    add_json(command, options.json);
 }
 
 void add_solve(CLI::App& app)
 {
-    CLI::App* command =
-        app.add_subcommand("solve", "Solve the arms and legs of a BVH or glTF clip, or of a crowd that performs it");
-    auto options = std::make_shared<SolveOptions>();
-    add_crowd_of_clip(*command, *options);
-    add_file_option(*command, "--export-targets", options->export_targets,
+    const auto [command, options] = add_command(
+        app, "solve", "Solve the arms and legs of a BVH or glTF clip, or of a crowd that performs it", run_solve);
+    add_crowd_of_clip(command, options);
+    add_file_option(command, "--export-targets", options.export_targets,
                     "Write the clip's wrists and hands, or the goals that are given, as a table to edit and to "
                     "give back by --targets");
-    add_file_option(*command, "-o,--out", options->out,
-                    "Write the poses to .csv, or to the clip's own format, .bvh or .glb, .gltf and .vrm. A .bvh "
-                    "holds one character, a glTF file up to 200; all else of the asset is kept. - is "
-                    "standard output, as CSV, and the report then goes to standard error. Without it there "
-                    "are statistics only");
-    add_view(*command, options->view);
-    add_frames(*command, options->frames);
-    add_quiet(*command, options->quiet, "Print errors, and what --json and --out - ask for, and nothing else");
-    add_json(*command, options->json);
-    command->callback([options] { run_solve(*options); });
+    add_file_option(command, "-o,--out", options.out,
+                    "Write the poses to .csv, or to the clip's own format, .bvh or .glb, .gltf and .vrm. A .bvh holds "
+                    "one character, a glTF file up to 200; all else of the asset is kept. - is standard output, as "
+                    "CSV, and the report then goes to standard error. Without it there are statistics only");
+    add_view(command, options.view);
+    add_frames(command, options.frames);
+    add_quiet(command, options.quiet, "Print errors, and what --json and --out - ask for, and nothing else");
+    add_json(command, options.json);
 }
 
 // The first given option that describes a clip's crowd; empty: none.
@@ -90,200 +86,234 @@ void add_view_command(CLI::App& app)
 
 void add_feet(CLI::App& app)
 {
-    CLI::App* command = app.add_subcommand(
-        "feet", "Make the feet of clips stand: find when they are on the ground, and remove their skate");
-    auto options = std::make_shared<FeetOptions>();
-    add_file_option(*command, "FILE", options->files,
-                    "Motion files: BVH or glTF (.glb, .gltf, .vrm, .vrma), as their first bytes say. - is "
-                    "standard input")
-        ->required()
-        ->option_text("...");
-    add_file_option(*command, "-o,--out", options->out,
+    const auto [command, options] =
+        add_command(app, "feet",
+                    "Make the feet of clips stand: find when they are on the ground, and remove their skate", run_feet);
+    add_files(command, options.files);
+    add_file_option(command, "-o,--out", options.out,
                     "Write the clip with its new legs and its body's new way, in its own format; all else of "
                     "it is kept. For several FILEs, or if it is one already, a folder, where each keeps its "
                     "name and manifest.json has the verdicts. Without it there is a report only");
-    command->add_flag("--travel", options->travel,
-                      "Move the root of a clip that walks in place, at an even speed, against the slide of its feet");
-    add_root_motion(*command, options->root_motion);
-    command->add_flag("--force", options->force,
-                      "Write a clip of a folder that is judged to be garbage, too. Without it such a clip is not "
-                      "written, and the command fails");
-    add_file_option(*command, "--contacts", options->contacts,
+    command.add_flag("--travel", options.travel,
+                     "Move the root of a clip that walks in place, at an even speed, against the slide of its feet");
+    add_root_motion(command, options.root_motion);
+    command.add_flag("--force", options.force,
+                     "Write a clip of a folder that is judged to be garbage, too. Without it such a clip is not "
+                     "written, and the command fails");
+    add_file_option(command, "--contacts", options.contacts,
                     "When feet are on the ground, instead of finding it: a CSV file with the columns "
-                    "frame,limb,contact. limb is left_leg or right_leg, contact is on or off from that frame "
-                    "on");
-    add_file_option(*command, "--export-contacts", options->export_contacts,
+                    "frame,limb,contact. limb is left_leg or right_leg, contact is on or off from that frame on");
+    add_file_option(command, "--export-contacts", options.export_contacts,
                     "Write the contacts that count as such a table, to edit and to give back");
-    takes(command
-              ->add_option("--speed", options->speed,
-                           "A foot is on the ground while its toe is slower than this many leg lengths a second, "
-                           "0.01 to 100")
-              ->capture_default_str(),
-          number(0.01, 100));
-    takes(command
-              ->add_option("--height", options->height,
-                           "And while it is lower than this many leg lengths over its floor, 0.001 to 10")
-              ->capture_default_str(),
-          number(0.001, 10));
-    add_file_option(*command, "--ground", options->ground,
+    add_value(command, "--speed", options.speed, number(0.01, 100),
+              "A foot is on the ground while its toe is slower than this many leg lengths a second, 0.01 to 100")
+        ->capture_default_str();
+    add_value(command, "--height", options.height, number(0.001, 10),
+              "And while it is lower than this many leg lengths over its floor, 0.001 to 10")
+        ->capture_default_str();
+    add_file_option(command, "--ground", options.ground,
                     "Hills to put the clip on: a picture of heights, a PNG of 8 or 16 bits. Its middle is at "
                     "the origin, and its upper edge is behind");
-    takes(command->add_option("--ground-size", options->ground_size,
-                              "How wide the picture is, how high its white, and how deep it is, X,Y,Z, in the "
-                              "clip's unit"),
-          numbers(3, 0));
-    add_named_legs(*command, options->legs,
-                   "Joints of a leg, HIP,KNEE,ANKLE, where their names do not tell. Each is a name, a path or a number "
-                   "(#12). left: or right: in front sets the side. May be given twice. The other side is still looked "
-                   "for");
-    add_motion(*command, options->motion, "It needs even frames, so glTF mostly needs --fps");
-    add_quiet(*command, options->quiet, "Print errors, and what --json asks for, and nothing else");
-    add_json(*command, options->json);
-    command->callback([options] { run_feet(*options); });
+    add_value(command, "--ground-size", options.ground_size, numbers(3, 0),
+              "How wide the picture is, how high its white, and how deep it is, X,Y,Z, in the clip's unit");
+    add_of_body(command, "--leg", "JOINTS", options.legs,
+                "Joints of a leg, HIP,KNEE,ANKLE, where their names do not tell. Each is a name, a path or a number "
+                "(#12). left: or right: in front sets the side. May be given twice. The other side is still looked "
+                "for");
+    add_motion(command, options.motion, "It needs even frames, so glTF mostly needs --fps");
+    add_quiet_and_json(command, options.quiet, options.json);
+}
+
+// The positional CACHE.
+void add_cache(CLI::App& command, std::string& folder, const std::string& meaning)
+{
+    add_value(command, "CACHE", folder, name("name the cache's folder"), meaning)->required()->option_text(" ");
+}
+
+void add_store(CLI::App& app)
+{
+    const auto [command, options] = add_command(
+        app, "store", "Make a cache of a clip's crowd: a Zarr folder that any number of machines fill", run_store);
+    add_crowd_of_clip(command, options.crowd);
+    add_cache(command, options.folder, "The folder to make");
+    add_value(command, "--frames", options.crowd.frames, whole_number(1, 1'000'000),
+              "Frames of the crowd, 1 to 1 million. Without it those of the clip. More than the clip has play it again "
+              "and again");
+    add_value(command, "--chunk", options.chunk, name("write FRAMES,CHARACTERS"),
+              "Frames and characters in a file, such as 8,4096. Without it by the crowd's size; fewer characters where "
+              "a frame depends on those before it, as then a shard has all frames of its characters");
+    command.add_flag("--no-poses", options.no_poses,
+                     "Keep goals and digests alone, which give the same poses on any machine");
+    add_quiet_and_json(command, options.crowd.quiet, options.crowd.json);
+    command.footer("Then swivel fill CACHE solves it, here or on many machines, and swivel check CACHE proves it.");
+}
+
+// A command that solves chunks.
+void add_solver(CLI::App& app, bool proves, const std::string& name, const std::string& meaning, const char* footer)
+{
+    const auto [command, options] = add_command(app, name, meaning, run_fill);
+    options.proves = proves;
+    add_cache(command, options.folder, "The folder that swivel store made");
+    command.add_option("--shard", options.shard, "The i-th of n parts of the cache alone, as i/n. Without it all")
+        ->type_name("i/n");
+    add_threads(
+        command, options.threads,
+        "Threads that solve, up to 1024; 0 for all. Two more wait for the disk, but with 1 no thread is started");
+    add_quiet_and_json(command, options.quiet, options.json);
+    command.footer(footer);
+}
+
+void add_solvers(CLI::App& app)
+{
+    add_solver(app, false, "fill", "Solve the chunks of a cache, or a shard of them",
+               "Chunks that are done are left as they are, so an interrupted run goes on.");
+    add_solver(
+        app, true, "check", "Prove that every chunk of a cache is right, and mend those that are damaged",
+        "All chunks are solved again and compared. Those that are missing or damaged are named and written again, "
+        "with exit code 1; run check again then. Where both the digest and the poses are others than the goals "
+        "give, nothing is written.");
+}
+
+void add_replay(CLI::App& app)
+{
+    const auto [command, options] =
+        add_command(app, "replay", "Compute a part of a cached crowd again, and prove it by digests", run_replay);
+    add_cache(command, options.folder, "The cache");
+    command
+        .add_option("--frames", options.frames,
+                    "Frames A to B - 1, as A:B; A: and :B go to the ends, A alone is one frame")
+        ->type_name("A:B")
+        ->default_str("all");
+    command.add_option("--characters", options.characters, "Characters C to D - 1, in the same way")
+        ->type_name("C:D")
+        ->default_str("all");
+    add_file_option(command, "-o,--out", options.out,
+                    "Write the poses to this CSV file, - for standard output. The table is that of swivel solve "
+                    "without its columns of clavicles; docs/cache.md says more. Without it the poses are proved alone");
+    add_threads(command, options.threads);
+    add_quiet_and_json(command, options.quiet, options.json);
 }
 
 void add_retarget(CLI::App& app)
 {
-    CLI::App* command = app.add_subcommand(
-        "retarget", "Put a clip's motion on another skeleton: joints turn alike, hands and feet reach their places");
-    auto options = std::make_shared<RetargetOptions>();
-    add_file_option(*command, "SOURCE", options->files,
+    const auto [command, options] = add_command(
+        app, "retarget",
+        "Put a clip's motion on another skeleton: joints turn alike, hands and feet reach their places", run_retarget);
+    add_file_option(command, "SOURCE", options.files,
                     "Motion files, and as the last file TARGET, the figure that is to move. All are BVH or glTF. "
                     "TARGET's own motion only tells how its feet stand. - is standard input")
         ->required()
         ->option_text("... TARGET");
-    add_animation(*command, options->clip, options->rate, "Here FILE is SOURCE");
-    const auto add_of_body = [&](const char* name, const char* type, std::vector<std::string>& texts,
-                                 const char* meaning) {
-        command->add_option(name, texts, meaning)->type_name(type)->allow_extra_args(false);
-    };
-    add_of_body("--rest", "FRAME", options->rests,
+    add_animation(command, options.clip, options.rate, "Here FILE is SOURCE");
+    add_of_body(command, "--rest", "FRAME", options.rests,
                 "The frame that is taken as the rest pose, counted from 0, with source: or target: in front. Without "
                 "it the file's own, or the most upright frame where that cannot stand");
-    add_of_body("--up", "AXIS", options->ups,
+    add_of_body(command, "--up", "AXIS", options.ups,
                 "The axis that is up, x, y, z, -x, -y or -z, with source: or target: in front. The rest pose is then a "
                 "frame that stands along it");
-    add_file_option(*command, "-o,--out", options->out,
+    add_file_option(command, "-o,--out", options.out,
                     "TARGET with the motion, in its own format: .bvh, or .glb, .gltf and .vrm. The motion "
                     "replaces that of a BVH file and the first animation of a glTF file, and all else is "
                     "kept. For several SOURCEs, or if it is one already, a folder, where each keeps its name and "
                     "manifest.json has the verdicts. Without it there is the report alone");
-    add_root_motion(*command, options->root_motion);
-    add_named_limbs(*command, options->arms, options->legs,
+    add_root_motion(command, options.root_motion);
+    add_named_limbs(command, options.arms, options.legs,
                     "Before that, source: or target: says whose it is, as in source:left:#16,#17,#18");
-    add_of_body("--head", "JOINT", options->heads,
+    add_of_body(command, "--head", "JOINT", options.heads,
                 "Joint that is the head, where its name does not tell, with source: or target: in front");
-    add_file_option(*command, "--map", options->map,
+    add_file_option(command, "--map", options.map,
                     "Table of the joints that stand for one another, with the columns part,source,target. "
                     "Without it they are found by their names. - is standard input");
-    add_file_option(*command, "--export-map", options->export_map,
+    add_file_option(command, "--export-map", options.export_map,
                     "Write that table as it was found, to edit and to give back by --map, if the command does not "
                     "fail");
-    command->add_flag("--force", options->force,
-                      "Write a motion that is judged to be garbage, too. Without it such a motion is not written, and "
-                      "the command fails");
-    add_quiet(*command, options->quiet, "Print errors, and what --json asks for, and nothing else");
-    add_json(*command, options->json);
-    command->callback([options] { run_retarget(*options); });
+    command.add_flag("--force", options.force,
+                     "Write a motion that is judged to be garbage, too. Without it such a motion is not written, and "
+                     "the command fails");
+    add_quiet_and_json(command, options.quiet, options.json);
 }
 
 void add_rig(CLI::App& app)
 {
-    CLI::App* command = app.add_subcommand(
-        "rig", "Show what a skeleton is to the solver: its arms and legs, lengths, axes, bends, and what is missing");
-    auto options = std::make_shared<RigOptions>();
-    options->clip.kinds = "all";
-    add_file(*command, options->clip.file, "Skeleton, with or without motion");
-    add_kinds(*command, options->clip.kinds, "Which limbs to look for: arms, legs or all")->capture_default_str();
-    add_named_limbs(*command, options->clip.arms, options->clip.legs, "The other side is still looked for");
-    add_motion(*command, options->clip.motion,
+    const auto [command, options] = add_command(
+        app, "rig",
+        "Show what a skeleton is to the solver: its arms and legs, lengths, axes, bends, and what is missing", run_rig);
+    options.clip.kinds = "all";
+    add_file(command, options.clip.file, "Skeleton, with or without motion");
+    add_kinds(command, options.clip.kinds, "Which limbs to look for: arms, legs or all")->capture_default_str();
+    add_named_limbs(command, options.clip.arms, options.clip.legs, kOtherSide);
+    add_motion(command, options.clip.motion,
                "It decides the limits that are printed. Where the rest pose is straight or bends otherwise, it decides "
                "bends and axes, too");
-    command->add_flag("--joints", options->joints, "List every joint, too: number, place at rest in the world, path");
-    add_json(*command, options->json);
-    command->callback([options] { run_rig(*options); });
+    command.add_flag("--joints", options.joints, "List every joint, too: number, place at rest in the world, path");
+    add_json(command, options.json);
 }
 
 void add_inspect(CLI::App& app)
 {
-    CLI::App* command = app.add_subcommand(
-        "inspect", "Say how good clips are, and where not: feet, knees, jumps, axes, unit, loops. Fails for garbage");
-    auto options = std::make_shared<InspectOptions>();
-    options->clip.kinds = "all";
-    add_file_option(*command, "FILE", options->files,
-                    "Motion files: BVH or glTF (.glb, .gltf, .vrm, .vrma), as their first bytes say. Several have a "
-                    "line each. - is standard input")
-        ->required()
-        ->option_text("...");
-    add_named_limbs(*command, options->clip.arms, options->clip.legs, "The other side is still looked for");
-    add_motion(*command, options->clip.motion, "Its feet and loops need even frames, so glTF mostly needs --fps");
-    add_quiet(*command, options->quiet, "Print errors, and what --json asks for, and nothing else");
-    add_json(*command, options->json);
-    command->callback([options] { run_inspect(*options); });
+    const auto [command, options] = add_command(
+        app, "inspect",
+        "Say how good clips are, and where not: feet, knees, jumps, axes, unit, loops. Fails for garbage", run_inspect);
+    options.clip.kinds = "all";
+    add_files(command, options.files, "Several have a line each. ");
+    add_named_limbs(command, options.clip.arms, options.clip.legs, kOtherSide);
+    add_motion(command, options.clip.motion, "Its feet and loops need even frames, so glTF mostly needs --fps");
+    add_quiet_and_json(command, options.quiet, options.json);
 }
 
 void add_steps(CLI::App& app)
 {
-    CLI::App* command =
-        app.add_subcommand("steps", "Print the lecture's five steps for one arm, entity by entity, as multivectors");
-    auto options = std::make_shared<StepsOptions>();
-    const auto add = [&](const char* name, std::string& text, const OptionValue& value, const char* meaning) {
-        takes(command->add_option(name, text, meaning)->capture_default_str(), value);
-    };
+    const auto [command, options] = add_command(
+        app, "steps", "Print the lecture's five steps for one arm, entity by entity, as multivectors", run_steps);
     const OptionValue vector = numbers(3, -HUGE_VAL);
-    add("--target", options->target, vector, "Where the wrist goes, in the arm frame");
-    add("--pole", options->pole, vector, "A point on the elbow's side, in the arm frame");
-    add("--lengths", options->lengths, numbers(2, 0), "Upper arm and forearm");
-    add_json(*command, options->json);
-    command->footer(
+    add_value(command, "--target", options.target, vector, "Where the wrist goes, in the arm frame")
+        ->capture_default_str();
+    add_value(command, "--pole", options.pole, vector, "A point on the elbow's side, in the arm frame")
+        ->capture_default_str();
+    add_value(command, "--lengths", options.lengths, numbers(2, 0), "Upper arm and forearm")->capture_default_str();
+    add_json(command, options.json);
+    command.footer(
         "The arm frame has the shoulder at its origin; a straight arm at rest lies along e3. Without any option\n"
         "the arm is the example of docs/mathematics.md. The page of swivel view shows the steps of a clip's limbs.");
-    command->callback([options] { run_steps(*options); });
 }
 
 void add_verify(CLI::App& app)
 {
-    CLI::App* command =
-        app.add_subcommand("verify", "Check oracle, double, float and every instruction set against each other");
-    auto options = std::make_shared<VerifyOptions>();
-    takes(command->add_option("--arms", options->arms, "Random arms in each reach band, 1 to 1000 million")
-              ->capture_default_str(),
-          whole_number(1, 1'000'000'000));
-    add_seed(*command, options->seed, "the random arms");
-    add_quiet(*command, options->quiet);
-    add_json(*command, options->json);
-    command->callback([options] { run_verify(*options); });
+    const auto [command, options] = add_command(
+        app, "verify", "Check oracle, double, float and every instruction set against each other", run_verify);
+    add_value(command, "--arms", options.arms, whole_number(1, 1'000'000'000),
+              "Random arms in each reach band, 1 to 1000 million")
+        ->capture_default_str();
+    add_seed(command, options.seed, "the random arms");
+    add_quiet(command, options.quiet);
+    add_json(command, options.json);
 }
 
 void add_bench(CLI::App& app)
 {
-    CLI::App* command = app.add_subcommand("bench", "Time solves on this machine beside rivals");
-    auto options = std::make_shared<BenchOptions>();
-    takes(command->add_option("--seconds", options->seconds, "Seconds to share among all that is timed, 0.1 to 3600")
-              ->capture_default_str(),
-          number(0.1, 3600));
-    add_json(*command, options->json);
-    command->footer(
+    const auto [command, options] = add_command(app, "bench", "Time solves on this machine beside rivals", run_bench);
+    add_value(command, "--seconds", options.seconds, number(0.1, 3600),
+              "Seconds to share among all that is timed, 0.1 to 3600")
+        ->capture_default_str();
+    add_json(command, options.json);
+    command.footer(
         "Prints nanoseconds an arm: medians, on one thread but for the rows of threads. Takes some seconds more, and\n"
         "some 500 MB. docs/speed.md says what the rows are. For figures to keep, leave the machine alone meanwhile.");
-    command->callback([options] { run_bench(*options); });
-}
-
-void add_info(CLI::App& app)
-{
-    CLI::App* command = app.add_subcommand("info", "CPU, instruction set in use, version, build");
-    auto options = std::make_shared<InfoOptions>();
-    add_json(*command, options->json);
-    command->callback([options] { run_info(*options); });
 }
 
 void add_lab(CLI::App& app)
 {
-    CLI::App* lab = app.add_subcommand("lab", "For those who work on swivel: the lecture's steps, checks, benchmarks");
-    lab->require_subcommand(1);
-    add_steps(*lab);
-    add_verify(*lab);
-    add_bench(*lab);
+    CLI::App& lab = *app.add_subcommand("lab", "For those who work on swivel: the lecture's steps, checks, benchmarks");
+    lab.require_subcommand(1);
+    add_steps(lab);
+    add_verify(lab);
+    add_bench(lab);
+}
+
+void add_info(CLI::App& app)
+{
+    const auto [command, options] = add_command(app, "info", "CPU, instruction set in use, version, build", run_info);
+    add_json(command, options.json);
 }
 
 // ---- the run
@@ -336,7 +366,9 @@ void run(int argc, const char* const* argv)
     add_demo(app);
     add_solve(app);
     add_view_command(app);
-    add_cache_commands(app);
+    add_store(app);
+    add_solvers(app);
+    add_replay(app);
     add_retarget(app);
     add_rig(app);
     add_inspect(app);

@@ -20,7 +20,8 @@
 #include "tools/formats/printable.h"
 #include "tools/formats/text.h"
 #include "tools/rig/vectors.h"
-#include "tools/swivel/solve_files.h"
+#include "tools/swivel/report.h"
+#include "tools/swivel/run_files.h"
 
 namespace swivel::tools {
 
@@ -28,12 +29,11 @@ namespace {
 
 void require_named_limbs_solved(const LimbChoice& choice)
 {
-    if (choice.kinds == "legs" && !choice.arms.empty())
-        throw CommandError(2,
-                           fmt::format("--arm names an arm, but {} solves none; use --limbs all", kinds_words(choice)));
-    if (choice.kinds == "arms" && !choice.legs.empty())
-        throw CommandError(2,
-                           fmt::format("--leg names a leg, but {} solves none; use --limbs all", kinds_words(choice)));
+    const auto refuse = [&](const char* named) {
+        throw CommandError(2, fmt::format("{}, but {} solves none; use --limbs all", named, kinds_words(choice)));
+    };
+    if (choice.kinds == "legs" && !choice.arms.empty()) refuse("--arm names an arm");
+    if (choice.kinds == "arms" && !choice.legs.empty()) refuse("--leg names a leg");
 }
 
 Between between_of(const SolveOptions& options, const std::string& targets)
@@ -43,15 +43,6 @@ Between between_of(const SolveOptions& options, const std::string& targets)
         throw CommandError(2, fmt::format("--between {}: is about the rows of a table; give one with --targets FILE",
                                           options.between));
     return options.between == "hold" ? Between::hold : Between::linear;
-}
-
-// The joint that all limbs hang on, or the first one.
-int common_joint(const formats::Clip& clip, std::span<const Limb> limbs)
-{
-    int body = joint_at(clip, limbs.front().upper()).parent;
-    for (const Limb& limb : limbs)
-        if (body >= 0) body = fork_of(clip, body, limb.upper());
-    return std::max(body, 0);
 }
 
 // A clip's loop, as the crowd file asks for it. name: of the clip, for people.
@@ -100,11 +91,7 @@ CarryPlan carry_of(const formats::CrowdFile& file, const formats::Clip& clip, co
     if (const std::string cause = why_not_carry(clip, job.limbs); !cause.empty())
         throw formats::InputError(file.path, carry.line, fmt::format("carry: {}, or take this out", cause));
     const double shortest = std::ranges::min(job.builds, {}, &Proportions::arms).arms;
-    const auto value = [](const formats::Maybe<Eigen::Vector3d>& given) {
-        return given ? std::optional(given->value) : std::nullopt;
-    };
-    return plan_carry(clip, job.limbs, {carry.share, value(carry.size), value(carry.place), shortest}, up_w,
-                      job.faces_w);
+    return plan_carry(clip, job.limbs, carry, shortest, up_w, job.faces_w);
 }
 
 // Reads one of the further clips. Its joints are the same ones.
@@ -139,6 +126,12 @@ formats::Clip further_clip(const SolveOptions& options, const formats::FurtherCl
     return file.clip();
 }
 
+// A file that the crowd file names; empty: none.
+std::string named_file(const formats::CrowdFile& file, const formats::Maybe<std::string>& name)
+{
+    return name ? beside(file, *name).string() : std::string();
+}
+
 // The head that the crowd file names.
 std::optional<NamedJoint> named_head(const CrowdJob& job)
 {
@@ -149,16 +142,15 @@ std::optional<NamedJoint> named_head(const CrowdJob& job)
 
 constexpr std::size_t kBuilds = 8;  // the number of figures, where proportions differ
 
-// The agents of the crowd file's table, as many as are asked for.
-std::vector<formats::Agent> read_agents(const SolveOptions& options, const formats::CrowdFile& file)
+// The agents of a table, as many as are asked for. table: empty without.
+std::vector<formats::Agent> read_agents(const SolveOptions& options, const std::string& table)
 {
-    if (!file.agents) return {};
-    const std::filesystem::path table = beside(file, *file.agents);
+    if (table.empty()) return {};
     std::vector<formats::Agent> agents = formats::read_agents_csv(table);
     const std::size_t count = options.characters.value_or(agents.size());
     if (count > agents.size())
         throw CommandError(2, fmt::format("--characters {}: the table {} has {} agents", count,
-                                          formats::printable(table.string()), agents.size()));
+                                          formats::printable(table), agents.size()));
     agents.resize(count);
     return agents;
 }
@@ -194,8 +186,9 @@ std::vector<PlannedAgent> placed_agents(const std::vector<formats::Agent>& agent
         Eigen::Vector3d stands = who.size * formats::position_of(pose_w, body);
         stands.y() = who.size * job.plan.foot.y();
         turn_with(who, stands.x(), stands.z());
-        const Eigen::Vector3d place(agent.x, agent.y, agent.z);
-        placed.push_back({agent.name, place - stands, who.heading, who.size, part, start});
+        Eigen::Map<Eigen::Vector3d>(who.place) = Eigen::Vector3d(agent.x, agent.y, agent.z) - stands;
+        who.start = static_cast<std::uint32_t>(start);
+        placed.push_back({agent.name, who, part});
     }
     return placed;
 }
@@ -224,8 +217,7 @@ std::vector<Proportions> builds_of(const SolveOptions& options, const formats::C
     const std::uint64_t own = options.seed.value_or(seed) ^ 0x6275696c6473u;  // unlike those that draw characters
     std::mt19937_64 random(own), speeds(~own);                                // so that speeds change no build
     const auto drawn = [](std::mt19937_64& from, const formats::Maybe<formats::NumberRange>& range) {
-        const double share = drawn_share(from);
-        return range ? range->value.min + (range->value.max - range->value.min) * share : 1;
+        return drawn_in(range ? range->value : formats::NumberRange{1, 1}, from);
     };
     for (std::size_t n = 1; n < kBuilds; ++n) {
         const double legs = drawn(random, file.legs), arms = drawn(random, file.arms),
@@ -263,7 +255,7 @@ std::vector<ClipPart> perform(const SolveOptions& options, std::span<const int> 
                 job.crowd->path,
                 fmt::format("crowd: {} frames of {} joints take {:.1f} GiB, more than 8; give fewer --frames", all,
                             from.joints.size(), bytes / 0x1p30));
-        clips.push_back(is_loop ? looped(from, body, loop, count) : frames_of(from, count));
+        clips.push_back(is_loop ? looped(from, body, loop, count) : frames_of(from, {0, count}));
     };
     add("the clip", clip);
     for (const formats::FurtherClip& each : job.crowd->clips) {
@@ -287,6 +279,14 @@ std::vector<ClipPart> perform(const SolveOptions& options, std::span<const int> 
 
 }  // namespace
 
+int common_joint(const formats::Clip& clip, std::span<const Limb> limbs)
+{
+    int body = joint_at(clip, limbs.front().upper()).parent;
+    for (const Limb& limb : limbs)
+        if (body >= 0) body = fork_of(clip, body, limb.upper());
+    return std::max(body, 0);
+}
+
 std::string title_of(const std::string& file)
 {
     return formats::is_standard_stream(file) ? "motion" : std::filesystem::path(file).filename().string();
@@ -295,7 +295,7 @@ std::string title_of(const std::string& file)
 std::string motion_of(const MotionFile& file, const CrowdJob& job)
 {
     const std::size_t more = job.further.size();
-    return file.describe() + (more > 0 ? fmt::format(", and {} clip{} more", more, more == 1 ? "" : "s") : "");
+    return file.describe() + (more > 0 ? fmt::format(", and {} more", counted(more, "clip")) : "");
 }
 
 LimbChoice choice_of(const SolveOptions& options)
@@ -318,16 +318,14 @@ CrowdJob make_job(const SolveOptions& options, LimbChoice choice, MotionFile& fi
         job.crowd = formats::read_crowd_file(options.crowd);
         add_choice(*job.crowd, choice);
         require_named_limbs_solved(choice);
-        if (job.crowd->agents) job.agents = beside(*job.crowd, *job.crowd->agents).string();
+        job.agents = named_file(*job.crowd, job.crowd->agents);
         if (job.crowd->characters) characters = static_cast<std::uint32_t>(job.crowd->characters->value);
-        agents = read_agents(options, *job.crowd);
+        agents = read_agents(options, job.agents);
         if (!agents.empty()) characters = static_cast<std::uint32_t>(agents.size());
     }
     out_kind(options.out, options.characters.value_or(characters), !agents.empty());  // before any work
     const formats::Clip& clip = file.clip();
-    const FigureJoints joints = choose_joints(clip, options.file, choice);
-    file.sample(joints_of(joints));
-    file.fix_rest_pose(known_limbs(joints));
+    const FigureJoints joints = file.find_limbs(choice);
     LimbSearch search = bind_limbs(clip, joints, choice);
     job.limbs = require_limbs(search, options.file);
     const Eigen::Vector3d up_w = nearest_axis(search.facing.up_w), &forwards_w = search.facing.forwards_w;
@@ -348,7 +346,7 @@ CrowdJob make_job(const SolveOptions& options, LimbChoice choice, MotionFile& fi
     job.plan.foot = foot_of(clip, parts.empty() ? clip.frame_count : parts[last].first + parts[last].count);
     job.plan.clips = std::move(parts);
     job.plan.agents = placed_agents(agents, clip, job, options.frames);
-    const bool is_turned = job.plan.min_heading_deg != 0 || job.plan.max_heading_deg != 0 ||
+    const bool is_turned = (agents.empty() && job.plan.has_headings()) ||
                            std::ranges::any_of(agents, [](const auto& agent) { return agent.heading_deg != 0; });
     if (is_turned && up_w != Eigen::Vector3d::UnitY())
         throw formats::InputError(
@@ -358,10 +356,8 @@ CrowdJob make_job(const SolveOptions& options, LimbChoice choice, MotionFile& fi
     if (job.crowd && job.crowd->ground) {
         stand_on_ground(*job.crowd, clip, job.limbs, {search.facing.up_w, carrier_of(clip, joints)},
                         {job.loops.empty() ? 0 : job.loops[0].loop.first, job.clip_frames}, job.plan);
-        const auto named = [&](const formats::Maybe<std::string>& name) {
-            return name ? beside(*job.crowd, *name).string() : std::string();
-        };
-        job.heights = named(job.crowd->ground->heights), job.contacts = named(job.crowd->ground->contacts);
+        job.heights = named_file(*job.crowd, job.crowd->ground->heights);
+        job.contacts = named_file(*job.crowd, job.crowd->ground->contacts);
     }
     if (job.crowd && job.crowd->look) job.plan.look = look_of(*job.crowd, clip, job);
     if (job.crowd && job.crowd->carry) job.plan.carry = carry_of(*job.crowd, clip, up_w, job);

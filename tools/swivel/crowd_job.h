@@ -4,6 +4,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,9 @@ struct CrowdJob {
     // The picture of the ground, and the tables of contacts and agents; empty: none.
     std::string heights, contacts, agents;
 };
+
+// The joint that all limbs hang on, or the first one. limbs: one or more.
+int common_joint(const formats::Clip& clip, std::span<const Limb> limbs);
 
 // The title of a motion's file on pages and in caches, and the names of the performed clips.
 std::string title_of(const std::string& file);

@@ -2,8 +2,6 @@
 //
 // `swivel demo`: the main job on a made-up clip. A crowd of characters swings its arms; targets lie somewhat ahead of
 // the clip's own wrists, some of them out of reach. Every frame all arms are solved.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -15,6 +13,7 @@
 #include "tools/crowd/demo_clip.h"
 #include "tools/crowd/parallel.h"
 #include "tools/formats/text.h"
+#include "tools/rig/vectors.h"
 #include "tools/swivel/cached_clip.h"
 #include "tools/swivel/commands.h"
 #include "tools/swivel/report.h"
@@ -33,14 +32,14 @@ std::vector<Limb> demo_limbs(const formats::Clip& clip)
     return require_limbs(bind_limbs(clip, choose_joints(clip, "demo", choice), choice), "demo");
 }
 
-CrowdPlan demo_plan(const DemoOptions& options, std::size_t limb_count)
+CrowdPlan demo_plan(const DemoOptions& options, std::span<const Limb> limbs)
 {
     CrowdPlan plan;
     plan.characters = options.characters;
     plan.seed = options.seed;
     plan.spacing = 1.6;
-    plan.limbs.resize(limb_count);
-    for (LimbPlan& limb : plan.limbs) limb.target_offset = Eigen::Vector3d(0, 0.06, 0.03);
+    for (const Limb& limb : limbs)
+        put(Eigen::Vector3d(0, 0.06, 0.03), plan.limbs.emplace_back(following_setup(limb)).goals.target_offset);
     return plan;
 }
 
@@ -50,7 +49,7 @@ Statistics solve_demo(const DemoOptions& options)
     if (!options.view.empty()) page.emplace(options.view);
     const formats::Clip clip = demo_clip(std::min<std::size_t>(options.frames, kDemoFrames));
     const std::vector<Limb> limbs = demo_limbs(clip);
-    const CrowdPlan plan = demo_plan(options, limbs.size());
+    const CrowdPlan plan = demo_plan(options, limbs);
     ClipCrowd crowd(clip, limbs, plan);
     Statistics statistics;
     {
@@ -78,8 +77,7 @@ void run_demo(const DemoOptions& options)
     std::FILE* const reports = formats::is_standard_stream(options.view) ? stderr : stdout;
     const Statistics statistics = solve_demo(options);
     if (options.json) {
-        nlohmann::ordered_json out{
-            {"characters", options.characters}, {"frames", options.frames}, {"seed", options.seed}};
+        Json out{{"characters", options.characters}, {"frames", options.frames}, {"seed", options.seed}};
         out.update(json_of(statistics));
         if (!options.view.empty()) out["view"] = options.view;
         print_json(out, reports);

@@ -16,17 +16,15 @@
 #include "tools/feet/turn_legs.h"
 #include "tools/formats/error.h"
 #include "tools/formats/height_picture.h"
-#include "tools/formats/output_file.h"
 #include "tools/formats/text.h"
 #include "tools/rig/clip_doubts.h"
 #include "tools/rig/limb_words.h"
 #include "tools/rig/vectors.h"
 #include "tools/swivel/commands.h"
 #include "tools/swivel/crowd_job.h"
-#include "tools/swivel/many_files.h"
 #include "tools/swivel/report.h"
 #include "tools/swivel/root_motion.h"
-#include "tools/swivel/solve_files.h"
+#include "tools/swivel/run_files.h"
 
 namespace swivel::tools {
 
@@ -36,21 +34,20 @@ using Eigen::Vector3d;
 
 // One clip: its legs, when they are in contact, and how its feet skate before and after.
 struct FeetRun {
-    std::string file, out, export_contacts;  // as the user wrote them; the last two may be empty
-    const MotionFile* motion_file = nullptr;
-    std::vector<Limb> legs;
-    std::vector<LimbFinding> missing;
+    std::string name, out;  // its files, as the user wrote them; out may be empty
+    MotionFile file;
     ContactBars bars;
-    std::string contacts_from;  // the table's file; empty: they are found
-    std::string ground;         // the picture's file; empty: a level floor
-    LegMotion motion;
-    Contacts contacts;
-    Floor floor;
-    PlacedFeet placed;
-    Skating before, after;
-    std::vector<FeetDoubt> doubts;
-    std::vector<ClipDoubt> clip_doubts;  // of FILE itself
-    std::optional<Vector3d> travel_w;    // by which --travel moves the root, a second
+    std::vector<Limb> legs{};
+    std::vector<LimbFinding> missing{};
+    LegMotion motion{};
+    Contacts contacts{};
+    Floor floor{};
+    PlacedFeet placed{};
+    double body_moved = 0, body_lowered = 0;  // at most, in leg lengths
+    Skating before{}, after{};
+    std::vector<FeetDoubt> doubts{};
+    std::vector<ClipDoubt> clip_doubts{};  // of FILE itself
+    std::optional<Vector3d> travel_w{};    // by which --travel moves the root, a second
 };
 
 // A number that is measured before and after, as people and as machines read it.
@@ -72,19 +69,6 @@ constexpr Measure kMeasures[] = {
     {"the body's jump in velocity, most", "leg lengths/s", "body_velocity_jump_max", &Skating::body_jump},
 };
 
-// How far the body moved, in leg lengths: at most, and downwards.
-struct BodyMove {
-    double max = 0, down = 0;
-
-    explicit BodyMove(const FeetRun& run)
-    {
-        for (const Vector3d& shift_w : run.placed.shift_w) {
-            max = std::max(max, shift_w.norm() / run.motion.leg_length());
-            down = std::max(down, -shift_w.dot(run.motion.up_w) / run.motion.leg_length());
-        }
-    }
-};
-
 std::string doubt_text(const FeetRun& run, const FeetDoubt& doubt)
 {
     const std::string who = doubt.leg < run.legs.size() ? plain_name(run.legs[doubt.leg].name) : "the body";
@@ -99,17 +83,12 @@ std::string doubt_text(const FeetRun& run, const FeetDoubt& doubt)
                                                            : "its velocity jumps",
                        doubt.value, is_knee ? "degrees" : "leg lengths/s", doubt.before, vector_text(doubt.place_w));
 }
-nlohmann::ordered_json doubt_json(const FeetRun& run, const FeetDoubt& doubt)
+Json doubt_json(const FeetRun& run, const FeetDoubt& doubt)
 {
     constexpr const char* kKeys[] = {"off_ground_max", "knee_degrees_a_frame_max", "velocity_jump_max",
                                      "body_velocity_jump_max"};
-    const Vector3d& place_w = doubt.place_w;
-    nlohmann::ordered_json out = {{"measure", kKeys[doubt.kind]},
-                                  {"first_frame", doubt.first},
-                                  {"last_frame", doubt.last},
-                                  {"value", doubt.value},
-                                  {"near", {place_w.x(), place_w.y(), place_w.z()}},
-                                  {"text", doubt_text(run, doubt)}};
+    Json out = {{"measure", kKeys[doubt.kind]}, {"first_frame", doubt.first}, {"last_frame", doubt.last},
+                {"value", doubt.value},         {"near", doubt.place_w},      {"text", doubt_text(run, doubt)}};
     if (doubt.leg < run.legs.size()) out["limb"] = limb_word(run.legs[doubt.leg].name);
     return out;
 }
@@ -119,35 +98,30 @@ double share_on(const std::vector<bool>& contact)
     return static_cast<double>(std::ranges::count(contact, true)) / static_cast<double>(contact.size());
 }
 
-void print_feet(const FeetRun& run, std::FILE* to)
+void print_feet(std::FILE* to, const FeetOptions& options, const FeetRun& run)
 {
-    const formats::Clip& clip = run.motion_file->clip();
-    say(to, "clip     {}: {}, {} joints, {} frames, {:.1f} frames/s\n", shown_file(run.file),
-        run.motion_file->describe(), clip.joints.size(), clip.frame_count, 1 / clip.frame_time);
-    for (const std::string& note : run.motion_file->notes()) say(to, "note     {}\n", note);
+    const formats::Clip& clip = run.file.clip();
+    print_motion_file(to, run.name, run.file, clip.frame_count);
     const auto shown = [&](int joint) { return printable_name(joint_at(clip, joint)); };
     for (std::size_t n = 0; n < run.legs.size(); ++n) {
         const Limb& leg = run.legs[n];
         const LegPath& path = run.motion.legs[n];
-        say(to, "leg      {:<5} {} > {} > {}, {:.4g} long; {}; in contact {} time{}, {:.0f} % of the frames\n",
+        say(to, "leg      {:<5} {} > {} > {}, {:.4g} long; {}; in contact {}, {:.0f} % of the frames\n",
             side_name(leg.name.side), shown(leg.upper()), shown(leg.lower()), shown(leg.end()), path.length,
             path.has_toe ? shown(path.toe) + " stands" : "without a toe joint its ankle stands",
-            contacts_of(run.contacts[n]).size(), contacts_of(run.contacts[n]).size() == 1 ? "" : "s",
-            100 * share_on(run.contacts[n]));
+            counted(contacts_of(run.contacts[n]).size(), "time"), 100 * share_on(run.contacts[n]));
     }
-    for (const LimbFinding& finding : run.missing)
-        say(to, "leg      {:<5} {}: {}\n", side_name(finding.name.side), finding.has_joints ? "refused" : "missing",
-            problem_text(finding));
-    if (run.contacts_from.empty())
+    print_missing(to, run.missing);
+    if (options.contacts.empty())
         say(to,
             "contact  slower than {:g} leg lengths a second and lower than {:g} over its floor, in most frames of a "
             "twelfth of a second\n",
             run.bars.speed, run.bars.height);
     else
-        say(to, "contact  as {} says\n", shown_file(run.contacts_from));
+        say(to, "contact  as {} says\n", shown_file(options.contacts));
     if (run.floor.hills)
         say(to, "ground   {}, {} x {} pixels; the clip's own floor is level, its feet stand at {:.4g}\n",
-            shown_file(run.ground), run.floor.hills->grid.columns, run.floor.hills->grid.rows, run.floor.level);
+            shown_file(options.ground), run.floor.hills->grid.columns, run.floor.hills->grid.rows, run.floor.level);
     else
         say(to, "ground   level, feet stand at {:.4g}\n", run.floor.level);
     say(to, "body     moved by {}\n", shown(run.motion.carrier));
@@ -155,24 +129,22 @@ void print_feet(const FeetRun& run, std::FILE* to)
     say(to, "{:<35}{:>9}{:>10}\n", "", "before", "after");
     for (const Measure& each : kMeasures)
         say(to, "{:<35}{:>9.4f}{:>10.4f}  {}\n", each.words, run.before.*each.value, run.after.*each.value, each.unit);
-    const BodyMove body(run);
-    say(to, "{:<35}{:>9}{:>10.4f}  leg lengths, {:.4f} down\n", "the body is moved by, most", "", body.max, body.down);
+    say(to, "{:<35}{:>9}{:>10.4f}  leg lengths, {:.4f} down\n", "the body is moved by, most", "", run.body_moved,
+        run.body_lowered);
     for (const ClipDoubt& doubt : run.clip_doubts) say(to, "look     FILE: {}\n", doubt.text);
     for (const FeetDoubt& doubt : run.doubts) say(to, "look     {}\n", doubt_text(run, doubt));
-    for (const std::string& name : {run.out, run.export_contacts})
-        if (!name.empty())
-            say(to, "written  {}\n", formats::is_standard_stream(name) ? "to standard output" : shown_file(name));
+    print_written(to, {run.out, options.export_contacts});
 }
 
-nlohmann::ordered_json json_of(const FeetRun& run)
+Json json_of(const FeetOptions& options, const FeetRun& run)
 {
-    const formats::Clip& clip = run.motion_file->clip();
+    const formats::Clip& clip = run.file.clip();
     const auto name = [&](int joint) { return joint_at(clip, joint).name; };
-    nlohmann::ordered_json out = {{"file", run.file},
-                                  {"format", run.motion_file->describe()},
-                                  {"frames", clip.frame_count},
-                                  {"frame_time", frame_time_of(clip)}};
-    if (const auto notes = run.motion_file->notes(); !notes.empty()) out["notes"] = notes;
+    Json out = {{"file", run.name},
+                {"format", run.file.describe()},
+                {"frames", clip.frame_count},
+                {"frame_time", frame_time_of(clip)}};
+    if (const auto notes = run.file.notes(); !notes.empty()) out["notes"] = notes;
     for (std::size_t n = 0; n < run.legs.size(); ++n) {
         const Limb& leg = run.legs[n];
         const LegPath& path = run.motion.legs[n];
@@ -184,27 +156,25 @@ nlohmann::ordered_json json_of(const FeetRun& run)
                                {"contacts", contacts_of(run.contacts[n]).size()},
                                {"share_in_contact", share_on(run.contacts[n])}});
     }
-    for (const LimbFinding& finding : run.missing)
-        out["missing"].push_back({{"limb", limb_word(finding.name)}, {"problem", problem_text(finding)}});
-    if (run.contacts_from.empty())
+    add_missing(out, run.missing);
+    if (options.contacts.empty())
         out["bars"] = {{"speed", run.bars.speed}, {"height", run.bars.height}};
     else
-        out["contacts"] = run.contacts_from;
-    if (run.floor.hills) out["ground"] = run.ground;
+        out["contacts"] = options.contacts;
+    if (run.floor.hills) out["ground"] = options.ground;
     out["floor"] = run.floor.level;
     out["body"] = name(run.motion.carrier);
-    if (run.travel_w) out["travel"] = {run.travel_w->x(), run.travel_w->y(), run.travel_w->z()};
+    if (run.travel_w) out["travel"] = *run.travel_w;
     for (const Measure& each : kMeasures) {
         out["before"][each.key] = run.before.*each.value;
         out["after"][each.key] = run.after.*each.value;
     }
-    const BodyMove body(run);
-    out["after"]["body_moved_max"] = body.max;
-    out["after"]["body_moved_down_max"] = body.down;
+    out["after"]["body_moved_max"] = run.body_moved;
+    out["after"]["body_moved_down_max"] = run.body_lowered;
     for (const FeetDoubt& doubt : run.doubts) out["look"].push_back(doubt_json(run, doubt));
     if (!run.clip_doubts.empty()) out["doubts"] = texts_of(run.clip_doubts);
     if (!run.out.empty()) out["out"] = run.out;
-    if (!run.export_contacts.empty()) out["export_contacts"] = run.export_contacts;
+    if (!options.export_contacts.empty()) out["export_contacts"] = options.export_contacts;
     return out;
 }
 
@@ -214,22 +184,9 @@ void require_usage(const FeetOptions& options)
 {
     if (options.ground.empty() != options.ground_size.empty())
         throw CommandError(2, "--ground and --ground-size go together; give both");
-    if (options.files.size() == 1) {
-        const auto inputs = {options.files[0], options.contacts, options.ground};
-        if (std::ranges::count_if(inputs, [](const std::string& name) { return formats::is_standard_stream(name); }) >
-            1)
-            throw CommandError(2,
-                               "more than one of FILE, --contacts and --ground is -, standard input; name the others");
-        return;
-    }
-    for (const std::string& file : options.files)
-        if (formats::is_standard_stream(file))
-            throw CommandError(2, "-, standard input, is one FILE of several; give it alone");
-    for (const auto& [option, value] :
-         {std::pair("--contacts", &options.contacts), {"--export-contacts", &options.export_contacts}})
-        if (!value->empty())
-            throw CommandError(2, fmt::format("{}: a table is of one FILE, not of {}; run each by itself", option,
-                                              options.files.size()));
+    require_one_reader(std::array{options.files[0], options.contacts, options.ground}, "FILE, --contacts and --ground");
+    require_many_files(options.files, options.files.size(), options.out, "FILE",
+                       {{"--contacts", options.contacts}, {"--export-contacts", options.export_contacts}});
 }
 
 std::optional<Ground> read_ground(const FeetOptions& options)
@@ -241,12 +198,12 @@ std::optional<Ground> read_ground(const FeetOptions& options)
 }
 
 // Moves the root of a clip that walks in place, evenly, so that its feet do not slide in the mean.
-void travel(MotionFile& file, FeetRun& run)
+void travel(FeetRun& run)
 {
     const auto slide = slide_of(run.motion, run.bars);
     if (!slide || slide->with_body) return;
     run.travel_w = -slide->velocity_w;
-    const formats::Clip& clip = file.clip();
+    const formats::Clip& clip = run.file.clip();
     const int carrier = run.motion.carrier, parent = joint_at(clip, carrier).parent;
     TurnedJoint moved{carrier, {}, {}};
     for (std::size_t frame = 0; frame < clip.frame_count; ++frame) {
@@ -256,35 +213,33 @@ void travel(MotionFile& file, FeetRun& run)
         moved.translation.push_back(parent < 0 ? place_w
                                                : formats::to_inner(pose_w[static_cast<std::size_t>(parent)], place_w));
     }
-    file.replace(with_joints(clip, std::array{moved}));
-    run.motion = leg_motion(file.clip(), run.legs, carrier, run.motion.up_w);
+    run.file.replace(with_joints(clip, std::array{moved}));
+    run.motion = leg_motion(clip, run.legs, carrier, run.motion.up_w);
 }
 
 // The legs that bind, and where they go.
-void bind_legs(const FeetOptions& options, MotionFile& file, FeetRun& run)
+void bind_legs(const FeetOptions& options, FeetRun& run)
 {
     SolveOptions legs;
     legs.kinds = "legs";
     legs.legs = options.legs;
     const LimbChoice choice = choice_of(legs);
-    const FigureJoints figure = choose_joints(file.clip(), run.file, choice);
-    file.sample(joints_of(figure));
-    file.fix_rest_pose(known_limbs(figure));
-    const formats::Clip& clip = file.clip();
+    const FigureJoints figure = run.file.find_limbs(choice);
+    const formats::Clip& clip = run.file.clip();
     LimbSearch search = bind_limbs(clip, figure, choice);
-    run.legs = require_limbs(search, run.file);  // first: of a glTF file the frames are those of known limbs alone
+    run.legs = require_limbs(search, run.name);  // first: of a glTF file the frames are those of known limbs alone
     if (clip.frame_time == 0 && clip.frame_count > 1)
-        throw InputError(run.file, "its keys lie at uneven times, and feet are judged by even frames; give --fps");
+        throw InputError(run.name, "its keys lie at uneven times, and feet are judged by even frames; give --fps");
     if (clip.frame_count < 3)
-        throw InputError(run.file, fmt::format("its legs have {} frame{}, and feet are judged by their motion; give a "
-                                               "clip in which they have 3 or more",
-                                               clip.frame_count, clip.frame_count == 1 ? "" : "s"));
+        throw InputError(run.name, fmt::format("its legs have {}, and feet are judged by their motion; give a clip in "
+                                               "which they have 3 or more",
+                                               counted(clip.frame_count, "frame")));
     for (LimbFinding& finding : search.findings)
         if (!finding.limb) run.missing.push_back(std::move(finding));
     const int carrier = carrier_of(clip, figure);
-    if (carrier < 0) throw InputError(run.file, "no joint is above both legs; the body cannot be moved");
+    if (carrier < 0) throw InputError(run.name, "no joint is above both legs; the body cannot be moved");
     run.motion = leg_motion(clip, run.legs, carrier, search.facing.up_w);
-    run.clip_doubts = clip_doubts(BodyFrames(clip, search.body), search.body).doubts;
+    run.clip_doubts = clip_doubts({clip, search.body});
 }
 
 Contacts choose_contacts(const FeetOptions& options, const FeetRun& run)
@@ -295,7 +250,7 @@ Contacts choose_contacts(const FeetOptions& options, const FeetRun& run)
     if (const auto slide = slide_of(run.motion, run.bars)) {
         const double speed = slide->velocity_w.norm() / run.motion.leg_length();
         throw InputError(
-            run.file,
+            run.name,
             slide->with_body
                 ? fmt::format("it glides, and does not walk: its feet slide with the body, by {:.2g} leg lengths a "
                               "second in the mean; say by --contacts when feet stand",
@@ -310,14 +265,6 @@ Contacts choose_contacts(const FeetOptions& options, const FeetRun& run)
     return find_contacts(run.motion, run.bars);
 }
 
-// The lowest joint that is above all legs.
-int hips_of(const formats::Clip& clip, const std::vector<Limb>& legs)
-{
-    int hips = joint_at(clip, legs[0].upper()).parent;
-    for (const Limb& leg : legs) hips = fork_of(clip, hips, joint_at(clip, leg.upper()).parent);
-    return hips;
-}
-
 // Whether the clip is garbage that may not go into a folder.
 bool is_refused(const FeetOptions& options, const FeetRun& run)
 {
@@ -327,54 +274,53 @@ bool is_refused(const FeetOptions& options, const FeetRun& run)
 
 FileOutcome outcome_of(const FeetOptions& options, const FeetRun& run)
 {
-    FileOutcome outcome{run.file, run.out, {}, {}, is_refused(options, run)};
+    FileOutcome outcome{run.name, run.out, {}, {}, is_refused(options, run)};
     for (const ClipDoubt& doubt : run.clip_doubts)
         (doubt.is_garbage ? outcome.garbage : outcome.look).push_back("FILE: " + doubt.text);
     for (const FeetDoubt& doubt : run.doubts) outcome.look.push_back(doubt_text(run, doubt));
     return outcome;
 }
 
-// The joints' keys, and with --root-motion the root's.
-void write_clip(const FeetOptions& options, const FeetRun& run, const formats::Clip& moved,
-                std::vector<formats::JointKeys> keys)
+// The body, for --root-motion. root: of root_joint().
+MovedBody moved_body(const FeetRun& run, int root)
 {
-    std::optional<RootMotion> root;
-    if (options.root_motion) {
-        const Limb& leg = run.legs[0];
-        const Vector3d& up_w = run.motion.up_w;
-        const double toe_at_rest = formats::position_of(formats::rest_pose(moved), run.motion.legs[0].toe).dot(up_w);
-        const double level = run.floor.level - (rests_on_ground(moved, leg.upper(), leg.end(), up_w) ? toe_at_rest : 0);
-        root.emplace(moved, root_joint(moved, run.motion.carrier, run.file),
-                     MovedBody{run.motion.carrier, hips_of(moved, run.legs), up_w,
-                               [&](const Vector3d& place_w) { return level + run.floor.hill(place_w); }});
-        root->add_to(keys);
-    }
-    run.motion_file->write(run.out, keys, {}, root ? root->added() : std::nullopt);
+    const formats::Clip& clip = run.file.clip();
+    const Limb& leg = run.legs[0];
+    const Vector3d& up_w = run.motion.up_w;
+    const double toe_at_rest = formats::position_of(formats::rest_pose(clip), run.motion.legs[0].toe).dot(up_w);
+    const double level = run.floor.level - (rests_on_ground(clip, leg.upper(), leg.end(), up_w) ? toe_at_rest : 0);
+    return {root, run.motion.carrier, common_joint(clip, run.legs), up_w,
+            [&run, level](const Vector3d& place_w) { return level + run.floor.hill(place_w); }};
 }
 
 // One clip, from its file to its file. hills: null without.
-FeetRun run_clip(const FeetOptions& options, const Ground* hills, MotionFile& file, FeetRun run)
+void run_clip(const FeetOptions& options, const Ground* hills, FeetRun& run)
 {
-    bind_legs(options, file, run);
-    if (options.root_motion) root_joint(file.clip(), run.motion.carrier, run.file);  // refuses before the work
-    if (options.travel) travel(file, run);
+    bind_legs(options, run);
+    const formats::Clip& clip = run.file.clip();
+    std::optional<int> root;
+    if (options.root_motion) root = root_joint(clip, run.motion.carrier, run.name);  // refuses before the work
+    if (options.travel) travel(run);
     run.contacts = choose_contacts(options, run);
     if (std::ranges::none_of(run.contacts, [](const std::vector<bool>& leg) { return std::ranges::count(leg, true); }))
-        throw InputError(run.file, fmt::format("no foot is ever on the ground: slower than {:g} leg lengths a second "
+        throw InputError(run.name, fmt::format("no foot is ever on the ground: slower than {:g} leg lengths a second "
                                                "and lower than {:g} over its floor; raise --speed or --height, or give "
                                                "--contacts",
                                                run.bars.speed, run.bars.height));
     run.floor = {run.motion.up_w, floor_level(run.motion, run.contacts), hills};
-    run.placed = place_feet(run.motion, run.contacts, run.bars, run.floor, run.file);
-    const formats::Clip& clip = file.clip();
-    std::vector<TurnedJoint> joints = turn_legs(clip, run.legs, run.motion, run.placed, run.file);
+    run.placed = place_feet(run.motion, run.contacts, run.bars, run.floor, run.name);
+    for (const Vector3d& shift_w : run.placed.shift_w) {
+        run.body_moved = std::max(run.body_moved, shift_w.norm() / run.motion.leg_length());
+        run.body_lowered = std::max(run.body_lowered, -shift_w.dot(run.motion.up_w) / run.motion.leg_length());
+    }
+    std::vector<TurnedJoint> joints = turn_legs(clip, run.legs, run.motion, run.placed, run.name);
     run.before = skating_of(run.motion, run.contacts, {run.motion.up_w, run.floor.level, nullptr});
     const auto motion_of = [&](const formats::Clip& moved) {
         return leg_motion(moved, run.legs, run.motion.carrier, run.motion.up_w);
     };
     const formats::Clip standing = with_joints(clip, joints);
     for (TurnedJoint& toes : bend_toes(standing, motion_of(standing), run.placed, run.floor))
-        if (file.can_key(toes.joint))
+        if (run.file.can_key(toes.joint))
             joints.push_back(std::move(toes));
         else
             run.clip_doubts.push_back({fmt::format("the tip of '{}' goes into the ground, and it takes no new rotation",
@@ -383,13 +329,12 @@ FeetRun run_clip(const FeetOptions& options, const Ground* hills, MotionFile& fi
     const LegMotion after = motion_of(moved);
     run.after = skating_of(after, run.contacts, run.floor);
     run.doubts = feet_doubts(after, run.motion, run.before, run.contacts, run.bars, run.floor);
-    std::vector<formats::JointKeys> keys;
-    for (const TurnedJoint& each : joints) keys.push_back({each.joint, each.rotation, each.translation});
     if (is_refused(options, run)) run.out.clear();
-    if (!run.out.empty()) write_clip(options, run, moved, std::move(keys));
-    if (!run.export_contacts.empty())
-        formats::write_contacts_csv(run.export_contacts, rows_of(run.motion, run.contacts));
-    return run;
+    if (!run.out.empty())
+        write_joints(run.out, run.file, moved, std::move(joints), {},
+                     root ? std::optional(moved_body(run, *root)) : std::nullopt);
+    if (!options.export_contacts.empty())
+        formats::write_contacts_csv(options.export_contacts, rows_of(run.motion, run.contacts));
 }
 
 }  // namespace
@@ -399,46 +344,31 @@ void run_feet(const FeetOptions& options)
     require_usage(options);
     if (!swivel_isa_name()) throw CommandError(1, swivel_last_error());
     const std::optional<Ground> hills = read_ground(options);
-    const std::vector<std::string> outputs = outputs_of(options.files, options.out);
     std::vector<ReadFile> read{{options.contacts, "the table of contacts"}, {options.ground, "the picture of heights"}};
     for (const std::string& file : options.files) read.push_back({file, "the clip"});
-    std::vector<std::string> written = outputs;
-    written.push_back(options.export_contacts);
+    std::vector<std::string> outputs = outputs_of(options.files, options.out);
+    outputs.push_back(options.export_contacts);
+    require_own_outputs(outputs, read);
+    std::FILE* const to = report_stream(outputs);
+    std::FILE* const reports = options.json || options.quiet ? nullptr : to;
     const bool to_folder = is_to_folder(options.out, options.files.size());
-    if (to_folder) written.push_back(manifest_in(options.out));
-    require_own_outputs(written, read);
-    std::FILE* const reports = report_stream(written);
-    const bool says = !options.json && !options.quiet;
 
-    nlohmann::ordered_json json = nlohmann::ordered_json::array();
-    const auto run_one = [&](std::size_t n) {
-        FeetRun run;
-        run.file = options.files[n];
-        run.out = outputs[n];
-        run.export_contacts = options.export_contacts;
-        run.bars = {options.speed, options.height};
-        run.contacts_from = options.contacts;
-        run.ground = options.ground;
-        MotionFile file(run.file, options.motion);
-        run.motion_file = &file;
-        if (!run.out.empty()) file.require_can_write(run.out, "this clip", "");
-        require_not_beside(std::array{run.out, run.export_contacts}, file);
-        run = run_clip(options, hills ? &*hills : nullptr, file, std::move(run));
-        if (options.json)
-            json.push_back(json_of(run));
-        else if (says && !to_folder)
-            print_feet(run, reports);
-        return outcome_of(options, run);
-    };
-    std::size_t failed = 0;
-    if (options.files.size() == 1 && !to_folder)
-        run_one(0);
-    else
-        failed =
-            run_files(options.files,
-                      {to_folder ? options.out : "", options.quiet, to_folder && says ? reports : nullptr}, run_one);
-    if (options.json) print_json({{"clips", json}}, reports);
-    require_none_failed(failed, options.files.size());
+    Json json = Json::array();
+    const std::vector<FileOutcome> outcomes =
+        run_files(options.files, {options.out, options.quiet, reports}, [&](std::size_t n) {
+            FeetRun run{options.files[n],
+                        outputs[n],
+                        MotionFile(options.files[n], options.motion),
+                        {options.speed, options.height}};
+            if (!run.out.empty()) run.file.require_can_write(run.out);
+            require_not_beside(std::array{run.out, options.export_contacts}, run.file);
+            run_clip(options, hills ? &*hills : nullptr, run);
+            if (options.json) json.push_back(json_of(options, run));
+            if (reports && !to_folder) print_feet(reports, options, run);
+            return outcome_of(options, run);
+        });
+    if (options.json) print_json({{"clips", json}}, to);
+    require_none_failed(outcomes);
 }
 
 }  // namespace swivel::tools

@@ -68,11 +68,10 @@ void print_fill(const FillReport& report, const std::string& note)
             static_cast<double>(report.limbs) / report.seconds / 1e6);
 }
 
-nlohmann::ordered_json json_of(const std::string& folder, const FillReport& report, const std::string& note)
+Json json_of(const std::string& folder, const FillReport& report, const std::string& note)
 {
-    nlohmann::ordered_json out = {{"cache", folder},           {"written", report.written},
-                                  {"left", report.left},       {"limbs", report.limbs},
-                                  {"seconds", report.seconds}, {"differences", nlohmann::ordered_json::array()}};
+    Json out = {{"cache", folder},       {"written", report.written}, {"left", report.left},
+                {"limbs", report.limbs}, {"seconds", report.seconds}, {"differences", Json::array()}};
     for (const Difference& each : report.differences)
         out["differences"].push_back({{"chunk", chunk_name(each.at)}, {"what", each.what}, {"mended", each.is_mended}});
     if (!note.empty()) out["notes"] = {note};
@@ -96,8 +95,7 @@ void require_right(const Cache& cache, const FillReport& report)
                           mended, count, which)
             : fmt::format(
                   "{} of {} chunks are not what the goals give, {}; the goals may be another crowd's, or another "
-                  "swivel filled the cache, so they stay: take a copy, or remove their digests and run swivel "
-                  "fill",
+                  "swivel filled the cache, so they stay: take a copy, or remove their digests and run swivel fill",
                   found.size() - mended, count, which));
 }
 

@@ -18,11 +18,11 @@ namespace swivel::tools {
 
 namespace {
 
-nlohmann::ordered_json describe()
+Json describe()
 {
     const char* isa = swivel_isa_name();
     if (!isa) throw CommandError(1, swivel_last_error());
-    nlohmann::ordered_json out;
+    Json out;
     const std::uint32_t version = swivel_version();
     out["swivel"] = fmt::format("{}.{}.{}", version / 10000, version / 100 % 100, version % 100);
     out["cpu"] = bench::cpu_model();
@@ -45,7 +45,7 @@ nlohmann::ordered_json describe()
 
 void run_info(const InfoOptions& options)
 {
-    const nlohmann::ordered_json info = describe();
+    const Json info = describe();
     if (options.json) {
         print_json(info);
         return;

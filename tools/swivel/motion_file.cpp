@@ -21,12 +21,6 @@ using formats::GltfFile;
 
 using Motion = std::variant<BvhFile, GltfFile>;
 
-void require_no_choice(const MotionChoice& choice)
-{
-    if (!choice.clip.empty())
-        throw CommandError(2, "--clip chooses an animation of a glTF file; a BVH file has one; leave it out");
-}
-
 // A GLB's header, which says its length. Nothing beyond it may be read yet: from a pipe, it may never come.
 constexpr std::size_t kGlbHead = 12;
 // A text shows its format within this, even after blank lines.
@@ -56,18 +50,25 @@ Motion read(const std::filesystem::path& path, const MotionChoice& choice)
             path, fmt::format("begins with '{}'; swivel reads BVH, which begins with HIERARCHY, and glTF, which begins "
                               "with glTF or {{; export the file as glTF, for example from Blender",
                               formats::printable(begin, kShownHead)));
-    require_no_choice(choice);
+    if (!choice.clip.empty())
+        throw CommandError(2, "--clip chooses an animation of a glTF file; a BVH file has one; leave it out");
     BvhFile file = formats::bvh_of(path, formats::read_text(path, input.get(), std::move(begin)));
     return choice.rate > 0 ? formats::at_rate(file, choice.rate) : std::move(file);
 }
 
-const char* format_of(const Motion& motion) { return std::holds_alternative<BvhFile>(motion) ? "BVH" : "glTF"; }
-
 }  // namespace
 
 MotionFile::MotionFile(const std::filesystem::path& path, const MotionChoice& choice)
-    : file_(read(path, choice)), format_(format_of(file_)), path_(path), rest_(choice.rest)
+    : file_(read(path, choice)), path_(path), rest_(choice.rest)
 {
+}
+
+FigureJoints MotionFile::find_limbs(const LimbChoice& choice)
+{
+    const FigureJoints figure = choose_joints(clip(), path_, choice);
+    sample(joints_of(figure));
+    fix_rest_pose(known_limbs(figure));
+    return figure;
 }
 
 void MotionFile::sample(std::span<const int> limb_joints)
@@ -77,59 +78,34 @@ void MotionFile::sample(std::span<const int> limb_joints)
 
 void MotionFile::fix_rest_pose(const KnownLimbs& limbs, bool is_replaced)
 {
-    formats::Clip& clip = std::visit([](auto& file) -> formats::Clip& { return file.clip; }, file_);
     try {
-        if (!is_replaced) rest_notes_[0] = size_at_rest(clip, limbs);
-        rest_notes_[1] = stand_at_rest(clip, limbs, rest_);
+        if (!is_replaced) rest_notes_[0] = size_at_rest(own_clip(), limbs);
+        rest_notes_[1] = stand_at_rest(own_clip(), limbs, rest_);
     } catch (const CannotBind& fault) {
         throw formats::InputError(path_, fmt::format("{}; {}", fault.what(), fault.advice));
     }
 }
 
-void MotionFile::cut(std::size_t frame_count)
+void MotionFile::cut(std::size_t frame_count) { formats::keep_frames(own_clip(), frame_count); }
+
+void MotionFile::replace(formats::Clip clip) { own_clip() = std::move(clip); }
+
+std::vector<std::filesystem::path> MotionFile::files_beside() const
 {
-    std::visit([&](auto& file) { formats::keep_frames(file.clip, frame_count); }, file_);
+    if (!gltf()) return {};
+    return gltf()->files_beside;
 }
 
-void MotionFile::replace(formats::Clip clip)
-{
-    std::visit([&](auto& file) { file.clip = std::move(clip); }, file_);
-}
-
-const formats::Clip& MotionFile::clip() const
-{
-    return std::visit([](const auto& file) -> const formats::Clip& { return file.clip; }, file_);
-}
-
-std::span<const std::filesystem::path> MotionFile::files_beside() const
-{
-    const GltfFile* gltf = std::get_if<GltfFile>(&file_);
-    return gltf ? std::span<const std::filesystem::path>(gltf->files_beside) : std::span<const std::filesystem::path>();
-}
-
-std::string MotionFile::figure_glb() const
-{
-    const GltfFile* gltf = std::get_if<GltfFile>(&file_);
-    return gltf ? formats::figure_glb(*gltf) : std::string();
-}
-
-bool MotionFile::is_in_metres() const { return std::holds_alternative<GltfFile>(file_); }
-
-bool MotionFile::has_motion() const
-{
-    const GltfFile* gltf = std::get_if<GltfFile>(&file_);
-    return !gltf || gltf->animation >= 0;
-}
+std::string MotionFile::figure_glb() const { return gltf() ? formats::figure_glb(*gltf()) : std::string(); }
 
 std::string MotionFile::describe() const
 {
-    const GltfFile* gltf = std::get_if<GltfFile>(&file_);
-    if (!gltf) return format_;
-    if (!has_motion()) return format_ + " without animation: its rest pose";
-    const std::string& name = gltf->animation_names[static_cast<std::size_t>(gltf->animation)];
-    return fmt::format("{}, animation {}{} of {}", format_, gltf->animation,
-                       name.empty() ? "" : fmt::format(" '{}'", formats::printable(name)),
-                       gltf->animation_names.size());
+    if (!gltf()) return "BVH";
+    if (!has_motion()) return "glTF without animation: its rest pose";
+    const std::vector<std::string>& names = gltf()->animation_names;
+    const std::string& name = names[static_cast<std::size_t>(gltf()->animation)];
+    return fmt::format("glTF, animation {}{} of {}", gltf()->animation,
+                       name.empty() ? "" : fmt::format(" '{}'", formats::printable(name)), names.size());
 }
 
 std::vector<std::string> MotionFile::notes() const
@@ -151,17 +127,15 @@ std::vector<std::string> MotionFile::notes() const
     return notes;
 }
 
-void MotionFile::require_can_write(const std::filesystem::path& out, std::string_view what,
-                                   std::string_view others) const
+void MotionFile::require_can_write(const std::filesystem::path& out, bool is_target, std::string_view others) const
 {
-    const bool is_bvh_clip = std::holds_alternative<BvhFile>(file_);
     const std::string suffix = formats::lower_suffix(out);
-    if (is_bvh_clip ? !is_bvh(suffix) : !is_gltf(suffix))
-        throw CommandError(2, fmt::format("--out {}: {} is a {} file; its poses go to {}{}{}", out.string(), what,
-                                          format_, is_bvh_clip ? ".bvh" : ".glb, .gltf, .vrm", others,
-                                          is_gltf(suffix) && what == kThisClip
-                                              ? "; swivel retarget puts its motion on the figure of a glTF file"
-                                              : ""));
+    if (gltf() ? is_gltf(suffix) : is_bvh(suffix)) return;
+    throw CommandError(
+        2, fmt::format(
+               "--out {}: {} is a {} file; its poses go to {}{}{}", out.string(), is_target ? "TARGET" : "this clip",
+               gltf() ? "glTF" : "BVH", gltf() ? ".glb, .gltf, .vrm" : ".bvh", others,
+               is_gltf(suffix) && !is_target ? "; swivel retarget puts its motion on the figure of a glTF file" : ""));
 }
 
 void MotionFile::require_can_key(int joint) const
@@ -171,8 +145,8 @@ void MotionFile::require_can_key(int joint) const
 
 std::string MotionFile::suffix() const
 {
+    if (!gltf()) return ".bvh";
     const std::string own = formats::lower_suffix(path_);
-    if (std::holds_alternative<BvhFile>(file_)) return ".bvh";
     return is_gltf(own) ? own : ".glb";
 }
 
@@ -190,8 +164,8 @@ void MotionFile::write(const std::filesystem::path& out, std::span<const formats
                        const std::optional<formats::NewFrames>& frames,
                        const std::optional<formats::NewJoint>& above) const
 {
-    if (const GltfFile* gltf = std::get_if<GltfFile>(&file_))
-        formats::write_gltf(out, *gltf, keys, frames, formats::lower_suffix(out) != ".gltf", above);
+    if (gltf())
+        formats::write_gltf(out, *gltf(), keys, frames, formats::lower_suffix(out) != ".gltf", above);
     else
         formats::write_bvh(out, std::get<BvhFile>(file_), keys, frames, above);
 }

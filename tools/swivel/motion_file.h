@@ -14,6 +14,7 @@
 
 #include "tools/formats/bvh.h"
 #include "tools/formats/gltf.h"
+#include "tools/rig/limbs.h"
 #include "tools/rig/standing_rest.h"
 #include "tools/swivel/commands.h"
 
@@ -25,6 +26,10 @@ public:
     // Throws InputError as the readers do, and CommandError (bad usage) for a choice that a BVH file does not have.
     // The clip has no frames until sample().
     MotionFile(const std::filesystem::path& path, const MotionChoice& choice);
+
+    // Finds the joints of the chosen limbs, makes the clip's frames for them, and fixes its rest pose. Throws
+    // InputError as choose_joints() and the next two do. choice: must outlive the result.
+    FigureJoints find_limbs(const LimbChoice& choice);
 
     // Makes the clip's frames, for limbs of these joints; throws InputError as formats::sample() does. A BVH file has
     // its frames already.
@@ -39,27 +44,29 @@ public:
     // Takes another motion of the clip's joints, which will not be written.
     void replace(formats::Clip clip);
 
-    const formats::Clip& clip() const;
+    const formats::Clip& clip() const
+    {
+        return std::visit([](const auto& file) -> const formats::Clip& { return file.clip; }, file_);
+    }
     // The files that it refers to, such as a glTF file's buffers and images.
-    std::span<const std::filesystem::path> files_beside() const;
+    std::vector<std::filesystem::path> files_beside() const;
     // The GLB from which a viewer draws the figure, as formats::figure_glb() makes it; empty where the file has no
     // mesh.
     std::string figure_glb() const;
     // Describes the clip for people: "glTF, animation 0 'Walk' of 3", "BVH", "glTF without animation: its rest pose".
     std::string describe() const;
     // Whether the format says that lengths are metres, as glTF does.
-    bool is_in_metres() const;
+    bool is_in_metres() const { return gltf() != nullptr; }
     // False for a glTF file without an animation: the clip is its rest pose.
-    bool has_motion() const;
+    bool has_motion() const { return !gltf() || gltf()->animation >= 0; }
     // Notes for the user on how the file was read, a line each; mostly none.
     std::vector<std::string> notes() const;
     // The suffix of a file that can hold this motion: its own, or .bvh or .glb where it has another.
     std::string suffix() const;
-    static constexpr std::string_view kThisClip = "this clip";
-    // Throws CommandError (bad usage) for an output file that cannot hold this motion. what, others: this file and
-    // other formats, for the message.
-    void require_can_write(const std::filesystem::path& out, std::string_view what = kThisClip,
-                           std::string_view others = " or .csv") const;
+    // Throws CommandError (bad usage) for an output file that cannot hold this motion. is_target: the motion comes from
+    // another file. others: formats that the command writes besides, for the message.
+    void require_can_write(const std::filesystem::path& out, bool is_target = false,
+                           std::string_view others = {}) const;
     // Throws InputError for a joint whose rotation the file cannot store.
     void require_can_key(int joint) const;
     bool can_key(int joint) const;  // whether it would not throw
@@ -73,8 +80,13 @@ public:
                const std::optional<formats::NewFrames>& frames) const;
 
 private:
+    const formats::GltfFile* gltf() const { return std::get_if<formats::GltfFile>(&file_); }  // null: it is BVH
+    formats::Clip& own_clip()
+    {
+        return std::visit([](auto& file) -> formats::Clip& { return file.clip; }, file_);
+    }
+
     std::variant<formats::BvhFile, formats::GltfFile> file_;
-    std::string format_;  // of the file that was read: "BVH" or "glTF"
     std::filesystem::path path_;
     RestChoice rest_;
     std::array<std::string, 2> rest_notes_;  // empty: there is nothing to say

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 
 #include "tools/crowd/heading.h"
@@ -58,8 +57,7 @@ MotionKeys::MotionKeys(const Clip& clip, std::span<const Limb> limbs, const Crow
     if (plan.look)
         for (std::size_t n = 0; n < plan.look->joints.size(); ++n)
             solved_.push_back({limbs.size(), n, plan.look->joints[n]});
-    if (plan.ground) raised_ = limbs[0].upper();
-    while (raised_ >= 0 && joint_at(clip, raised_).parent >= 0) raised_ = joint_at(clip, raised_).parent;
+    if (plan.ground) raised_ = root_of(clip, limbs[0].upper());
     if (has_new_frames) {
         for (std::size_t n = 0; n < clip.joints.size(); ++n) {
             const int joint = static_cast<int>(n);

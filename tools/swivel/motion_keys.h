@@ -5,7 +5,6 @@
 // shows, raised with its ground.
 #pragma once
 
-#include <optional>
 #include <span>
 #include <vector>
 

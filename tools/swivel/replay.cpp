@@ -47,45 +47,23 @@ Range range_of(const char* option, const std::string& text, std::uint32_t count)
     return {static_cast<std::uint32_t>(*begin), static_cast<std::uint32_t>(*end)};
 }
 
-// The characters of one column, chunk after chunk, solved and proved.
-class ColumnReplay {
-public:
-    ColumnReplay(const Cache& cache, std::uint32_t index)
-        : cache_(cache),
-          characters_(cache.characters(index)),
-          column_(cache.crowd(), index, characters_),
-          results_(empty_results(cache.crowd()))
-    {
-    }
-
-    // Chunks of the column in order, from any on. Throws InputError if the chunk is not done, or has another digest.
-    const Results& solve(std::uint32_t time)
-    {
-        const ChunkAt at{time, column_.index()};
-        const std::uint64_t stored = cache_.digest(at);
-        if (stored == 0)
-            throw InputError(
-                cache_.folder(),
-                fmt::format("chunk {}.{} is not done, so nothing proves it; run swivel fill", time, at.column));
-        if (cache_.crowd().carries_state() && time > 0 && !has_begun_)
-            column_.restore(cache_.require_state({time - 1, at.column}));
-        has_begun_ = true;
-        const std::uint64_t digest = column_.solve(time, cache_.goals(at), results_);
-        if (digest != stored)
-            throw InputError(cache_.folder(),
-                             fmt::format("chunk {}.{} has digest {:016x}, and its goals give {:016x}; run swivel check",
-                                         time, at.column, stored, digest));
-        return results_;
-    }
-    std::span<const goal_character> characters() const { return characters_; }
-
-private:
-    const Cache& cache_;
-    std::vector<goal_character> characters_;
-    Column column_;
-    Results results_;
-    bool has_begun_ = false;
-};
+// Solves a chunk of a column and proves it by the cache's digest. Throws InputError if the chunk is not done, or has
+// another digest. is_first: the column has solved no chunk before, so it needs the state of the one before.
+void solve_proved(const Cache& cache, Column& column, std::uint32_t time, bool is_first, Results& results)
+{
+    const ChunkAt at{time, column.index()};
+    const std::uint64_t stored = cache.digest(at);
+    if (stored == 0)
+        throw InputError(cache.folder(), fmt::format("chunk {}.{} is not done, so nothing proves it; run swivel fill",
+                                                     time, at.column));
+    if (cache.crowd().carries_state() && time > 0 && is_first)
+        column.restore(cache.require_state({time - 1, at.column}));
+    const std::uint64_t digest = column.solve(time, cache.goals(at), results);
+    if (digest != stored)
+        throw InputError(cache.folder(),
+                         fmt::format("chunk {}.{} has digest {:016x}, and its goals give {:016x}; run swivel check",
+                                     time, at.column, stored, digest));
+}
 
 // The columns of the table, from the fields that there are. Clavicles have none: a table has the local rotation of
 // their joint, and a cache has only the turn that the solver adds to it.
@@ -105,11 +83,7 @@ formats::PoseColumns columns_of(const CachedCrowd& crowd)
 class TableWriter {
 public:
     TableWriter(const std::string& path, const CachedCrowd& crowd)
-        : crowd_(crowd),
-          fields_(result_fields(crowd)),
-          columns_(columns_of(crowd)),
-          has_extras_(columns_.stretch || columns_.twist_count > 0),
-          csv_(path, columns_)
+        : crowd_(crowd), fields_(result_fields(crowd)), columns_(columns_of(crowd)), csv_(path, columns_)
     {
     }
 
@@ -144,7 +118,7 @@ private:
             const std::size_t parts = fields_[f].count();
             put(fields_[f].field, std::span(results[f]).subspan(place * parts, parts), row, extra);
         }
-        csv_.append(frame, {&row, 1}, {&extra, has_extras_ ? 1u : 0u});
+        csv_.append(frame, {&row, 1}, {&extra, columns_.has_extras() ? 1u : 0u});
     }
 
     static void put(swivel_field field, std::span<const std::uint32_t> from, formats::PoseRow& row,
@@ -166,7 +140,6 @@ private:
     const CachedCrowd& crowd_;
     std::vector<ResultField> fields_;
     formats::PoseColumns columns_;
-    bool has_extras_;
     formats::PosesCsv csv_;
 };
 
@@ -198,25 +171,27 @@ void run_replay(const ReplayOptions& options)
         Progress progress("chunks", count, options.quiet);
         std::uint64_t done = 0;
         for (std::uint32_t index = columns.begin; index < columns.end; ++index) {
-            ColumnReplay column(cache, index);
+            const std::vector<goal_character> in_column = cache.characters(index);
+            Column column(crowd, index, in_column);
+            Results results = empty_results(crowd);
             const Range who = within(characters, index * chunk.characters, crowd.characters_in(index));
             for (std::uint32_t time = times.begin; time < times.end; ++time) {
                 progress.show(done++);
-                const Results& results = column.solve(time);
+                solve_proved(cache, column, time, time == times.begin, results);
                 const Range when = within(frames, time * chunk.frames, crowd.frames_in(time));
-                if (table) table->write({time, index}, column.characters(), results, when, who);
+                if (table) table->write({time, index}, in_column, results, when, who);
             }
         }
     }
     if (table) table->commit();
     std::FILE* const to = formats::is_standard_stream(options.out) ? stderr : stdout;
     if (options.json) {
-        nlohmann::ordered_json out = {{"cache", options.folder},
-                                      {"chunks", count},
-                                      {"first_frame", frames.begin},
-                                      {"last_frame", frames.end - 1},
-                                      {"first_character", characters.begin},
-                                      {"last_character", characters.end - 1}};
+        Json out = {{"cache", options.folder},
+                    {"chunks", count},
+                    {"first_frame", frames.begin},
+                    {"last_frame", frames.end - 1},
+                    {"first_character", characters.begin},
+                    {"last_character", characters.end - 1}};
         if (table) out["out"] = options.out;
         return print_json(out, to);
     }

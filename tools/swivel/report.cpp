@@ -18,6 +18,7 @@
 #include "tools/crowd/heading.h"
 #include "tools/crowd/parallel.h"
 #include "tools/formats/printable.h"
+#include "tools/formats/text.h"
 #include "tools/rig/limb_words.h"
 #include "tools/rig/vectors.h"
 
@@ -45,7 +46,7 @@ std::string text_of(const PoseName& pose)
 {
     return fmt::format("frame {}, character {}, {}", pose.frame, pose.character, limb_word(pose.limb));
 }
-nlohmann::ordered_json json_of(const PoseName& pose)
+Json json_of(const PoseName& pose)
 {
     return {{"frame", pose.frame}, {"character", pose.character}, {"limb", limb_word(pose.limb)}};
 }
@@ -117,16 +118,14 @@ std::string what_went_wrong(const Statistics& statistics)
     return text;
 }
 
-// Notes for the user on the motion, a line each; mostly none.
-std::vector<std::string> motion_notes(const SolveOptions& options, const MotionFile& file, const CrowdJob& job)
+// Notes for the user on a crowd without motion, a line each; mostly none.
+std::vector<std::string> rest_notes(const SolveOptions& options, const MotionFile& file, const CrowdJob& job)
 {
-    std::vector<std::string> notes = file.notes();
-    if (!file.has_motion() && job.plan.characters > 1)
-        notes.push_back(
-            fmt::format("{0} has no motion: all {1} characters stand in its rest pose, but for limbs with "
-                        "targets; swivel retarget puts a motion on it",
-                        shown_file(options.file), job.plan.characters));
-    return notes;
+    if (file.has_motion() || job.plan.characters <= 1) return {};
+    return {
+        fmt::format("{0} has no motion: all {1} characters stand in its rest pose, but for limbs with "
+                    "targets; swivel retarget puts a motion on it",
+                    shown_file(options.file), job.plan.characters)};
 }
 
 std::string number_of_clip(const CrowdJob& job, std::size_t n)
@@ -141,9 +140,8 @@ std::vector<std::string> loop_notes(const CrowdJob& job)
     for (std::size_t n = 0; n < job.loops.size(); ++n)
         if (job.loops[n].gap > kWideGap)
             notes.push_back(
-                fmt::format("the clip{} never comes back to a pose while it moves: at the loop's seam its "
-                            "joints are {:.0f} degrees apart, and this shows; {}take a clip that repeats "
-                            "itself",
+                fmt::format("the clip{} never comes back to a pose while it moves: at the loop's seam its joints are "
+                            "{:.0f} degrees apart, and this shows; {}take a clip that repeats itself",
                             number_of_clip(job, n), job.loops[n].gap * 180 / std::numbers::pi,
                             job.further.empty() ? "name [first, last], or " : ""));
     return notes;
@@ -181,9 +179,8 @@ std::vector<std::string> ground_notes(const formats::Clip& clip, const CrowdJob&
     if (first == characters.end()) return {};
     return {fmt::format(
         "{} of {} characters walk beside the picture, which lies from {:.4g} to {:.4g} along x and from {:.4g} to "
-        "{:.4g} "
-        "along z, and where the ground goes on level: character {} is the first. Give a larger picture, or a smaller "
-        "crowd.spacing",
+        "{:.4g} along z, and where the ground goes on level: character {} is the first. Give a larger picture, or a "
+        "smaller crowd.spacing",
         std::ranges::count_if(characters, leaves), characters.size(), picture.min().x(), picture.max().x(),
         picture.min().y(), picture.max().y(), first - characters.begin())};
 }
@@ -198,9 +195,7 @@ void print_limbs(std::FILE* to, const formats::Clip& clip, const CrowdJob& job)
             limb.bound.lengths[0], limb.bound.lengths[1], limb_word(limb.name), toml_row(limb.bend), limb.bend_source);
     for (const Limb& limb : job.limbs)
         for (const std::string& note : limb.notes) say(to, "note     {}: {}\n", plain_name(limb.name), note);
-    for (const LimbFinding& finding : job.missing)
-        say(to, "{:<8} {:<5} {}: {}\n", kind_name(finding.name.kind), side_name(finding.name.side),
-            finding.has_joints ? "refused" : "missing", problem_text(finding));
+    print_missing(to, job.missing);
 }
 
 // The clips after the first one, and the frames between which clips loop.
@@ -246,9 +241,9 @@ void print_builds(std::FILE* to, const CrowdJob& job)
 void print_hands(std::FILE* to, const formats::Clip& clip, const CrowdJob& job)
 {
     for (std::size_t n = 0; n < job.limbs.size(); ++n)
-        if (const auto held = job.plan.limbs[n].holds)
+        if (const auto holds = job.plan.limbs[n].goals.holds)
             say(to, "hold     the {} keeps its hand to that of the {}, as in the clip\n", plain_name(job.limbs[n].name),
-                plain_name(job.limbs[*held].name));
+                plain_name(job.limbs[holds - 1].name));
     if (const auto& carry = job.plan.carry)
         say(to, "carry    {} of {} characters have a box in both hands, {:.3g} x {:.3g} x {:.3g}\n",
             std::ranges::count(characters_of(job.plan, job.limbs, clip.frame_count), 1u, &goal_character::carries),
@@ -262,10 +257,9 @@ void print_crowd(std::FILE* to, const SolveOptions& options, const CrowdJob& job
     for (const LimbKind kind : {LimbKind::arm, LimbKind::leg}) {
         const auto is_of_kind = [&](const Limb& limb) { return limb.name.kind == kind; };
         const auto count = static_cast<std::size_t>(std::ranges::count_if(job.limbs, is_of_kind));
-        if (count > 0)
-            counts += fmt::format(", {} {}{}", count * characters, kind_name(kind), count * characters == 1 ? "" : "s");
+        if (count > 0) counts += ", " + counted(count * characters, kind_name(kind));
     }
-    say(to, "crowd    {} character{}{}, targets from {}{}{}\n", characters, characters == 1 ? "" : "s", counts,
+    say(to, "crowd    {}{}, targets from {}{}{}\n", counted(characters, "character"), counts,
         job.targets == "clip" ? "the clip" : shown_file(job.targets),
         job.agents.empty() ? "" : fmt::format(", agents from {}", shown_file(job.agents)),
         options.crowd.empty() ? "" : fmt::format(", all else from {}", shown_file(options.crowd)));
@@ -276,8 +270,8 @@ void print_crowd(std::FILE* to, const SolveOptions& options, const CrowdJob& job
 void print_statistics(std::FILE* to, const Statistics& statistics)
 {
     const std::string limbs = limbs_solved(statistics);
-    say(to, "solved   {} {}, {:.1f} million {}/s ({}, {} thread{})\n", statistics.limb_count(), limbs,
-        limbs_per_second(statistics) / 1e6, limbs, swivel_isa_name(), thread_count(), thread_count() == 1 ? "" : "s");
+    say(to, "solved   {} {}, {:.1f} million {}/s ({}, {})\n", statistics.limb_count(), limbs,
+        limbs_per_second(statistics) / 1e6, limbs, swivel_isa_name(), counted(thread_count(), "thread"));
     for (const Distance& d : distances_of(statistics))
         say(to, "{:<8} {:<32} worst {:.2e}  rms {:.2e}  {}; worst in {}\n", d.meaning.line, d.text, d.stat.max,
             d.stat.rms(), d.unit, text_of(d.stat.worst_pose));
@@ -286,16 +280,15 @@ void print_statistics(std::FILE* to, const Statistics& statistics)
     if (const LookStatistics& looks = statistics.looks; looks.count > 0)
         say(to,
             "looks    {} of {} meet their target, {} turn no further, {} have it behind them or too near, {} are on "
-            "their "
-            "way\n",
+            "their way\n",
             looks.met, looks.count, looks.limited, looks.faded, looks.on_their_way());
     if (went_wrong(statistics))
         say(to, "note     most {} are not where they should be: {}\n", limbs, what_went_wrong(statistics));
 }
 
-nlohmann::ordered_json json_of(const Statistics& statistics)
+Json json_of(const Statistics& statistics)
 {
-    nlohmann::ordered_json out;
+    Json out;
     out[limbs_solved(statistics)] = statistics.limb_count();
     out["solve_seconds"] = statistics.solve_seconds;
     out[limbs_solved(statistics) + "_per_second"] = limbs_per_second(statistics);
@@ -321,25 +314,64 @@ nlohmann::ordered_json json_of(const Statistics& statistics)
     return out;
 }
 
-nlohmann::ordered_json frame_time_of(const formats::Clip& clip)
+Json frame_time_of(const formats::Clip& clip) { return clip.frame_time > 0 ? Json(clip.frame_time) : Json(); }
+
+std::string json_text(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
+void print_json(const Json& json, std::FILE* to) { say(to, "{}", json_text(json)); }
+
+Json names_json(const formats::Clip& clip, std::span<const int> joints)
 {
-    return clip.frame_time > 0 ? nlohmann::ordered_json(clip.frame_time) : nlohmann::ordered_json();
+    Json names = Json::array();
+    for (const int joint : joints) names.push_back(joint_at(clip, joint).name);
+    return names;
 }
 
-void print_json(const nlohmann::ordered_json& json, std::FILE* to)
+const char* verdict_word(bool has_doubts, bool is_garbage)
 {
-    say(to, "{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+    return is_garbage ? "garbage" : has_doubts ? "look" : "good";
+}
+
+std::string counted(std::uint64_t count, std::string_view what)
+{
+    return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }
 
 std::string shown_file(const std::string& name) { return formats::printable(name, std::string::npos); }
 
+void print_motion_file(std::FILE* to, const std::string& name, const MotionFile& file, std::size_t frame_count)
+{
+    const formats::Clip& clip = file.clip();
+    say(to, "clip     {}: {}, {} joints, {}, {}\n", shown_file(name), file.describe(), clip.joints.size(),
+        counted(frame_count, "frame"),
+        clip.frame_time > 0 ? fmt::format("{:.1f} frames/s", 1 / clip.frame_time) : "at the times of its keys");
+    for (const std::string& note : file.notes()) say(to, "note     {}\n", note);
+}
+
+void print_missing(std::FILE* to, const std::vector<LimbFinding>& missing)
+{
+    for (const LimbFinding& finding : missing)
+        say(to, "{:<8} {:<5} {}: {}\n", kind_name(finding.name.kind), side_name(finding.name.side),
+            finding.has_joints ? "refused" : "missing", problem_text(finding));
+}
+void add_missing(Json& json, const std::vector<LimbFinding>& missing)
+{
+    for (const LimbFinding& finding : missing)
+        json["missing"].push_back({{"limb", limb_word(finding.name)}, {"problem", problem_text(finding)}});
+}
+
+void print_written(std::FILE* to, std::initializer_list<std::string> outputs, std::size_t width)
+{
+    for (const std::string& name : outputs)
+        if (!name.empty())
+            say(to, "{:<{}}{}\n", "written", width,
+                formats::is_standard_stream(name) ? "to standard output" : shown_file(name));
+}
+
 void print_clip(std::FILE* to, const SolveOptions& options, const MotionFile& file, const CrowdJob& job)
 {
     const formats::Clip& clip = file.clip();
-    say(to, "clip     {}: {}, {} joints, {} frame{}, {}\n", shown_file(options.file), file.describe(),
-        clip.joints.size(), job.frame_count, job.frame_count == 1 ? "" : "s",
-        clip.frame_time > 0 ? fmt::format("{:.1f} frames/s", 1 / clip.frame_time) : "at the times of its keys");
-    for (const std::string& note : motion_notes(options, file, job)) say(to, "note     {}\n", note);
+    print_motion_file(to, options.file, file, job.frame_count);
+    for (const std::string& note : rest_notes(options, file, job)) say(to, "note     {}\n", note);
     print_limbs(to, clip, job);
     print_further_clips(to, clip, job);
     if (const std::size_t count = job.given->left_out(); count > 0)
@@ -351,26 +383,25 @@ void print_clip(std::FILE* to, const SolveOptions& options, const MotionFile& fi
     print_crowd(to, options, job);
 }
 
-nlohmann::ordered_json json_of_clip(const SolveOptions& options, const MotionFile& file, const CrowdJob& job)
+Json json_of_clip(const SolveOptions& options, const MotionFile& file, const CrowdJob& job)
 {
     const formats::Clip& clip = file.clip();
-    nlohmann::ordered_json out{{"clip", options.file},
-                               {"motion", file.describe()},
-                               {"joints", clip.joints.size()},
-                               {"frames", job.frame_count},
-                               {"frame_time", frame_time_of(clip)},
-                               {"characters", job.plan.characters},
-                               {"seed", job.plan.seed},
-                               {"targets", job.targets}};
+    Json out{{"clip", options.file},
+             {"motion", file.describe()},
+             {"joints", clip.joints.size()},
+             {"frames", job.frame_count},
+             {"frame_time", frame_time_of(clip)},
+             {"characters", job.plan.characters},
+             {"seed", job.plan.seed},
+             {"targets", job.targets}};
     if (!options.crowd.empty()) out["crowd"] = options.crowd;
     if (!job.agents.empty()) out["agents"] = job.agents;
-    if (const auto& carry = job.plan.carry)
-        out["carry"] = {{"share", carry->share}, {"size", {carry->size.x(), carry->size.y(), carry->size.z()}}};
+    if (const auto& carry = job.plan.carry) out["carry"] = {{"share", carry->share}, {"size", carry->size}};
     if (job.plan.ground) out["ground"] = job.heights.empty() ? "level" : job.heights;
     if (!job.contacts.empty()) out["contacts"] = job.contacts;
     for (std::size_t n = 0; n < job.plan.clips.size(); ++n) {
         const ClipPart& part = job.plan.clips[n];
-        nlohmann::ordered_json& performed = out["performed"].emplace_back();
+        Json& performed = out["performed"].emplace_back();
         const std::size_t which = n % (1 + job.further.size());
         const Proportions& build = job.builds[n / (1 + job.further.size())];
         performed = {{"motion", which == 0 ? file.describe() : job.further[which - 1].words},
@@ -378,30 +409,30 @@ nlohmann::ordered_json json_of_clip(const SolveOptions& options, const MotionFil
                      {"frames", part.count}};
         if (!job.loops.empty()) performed["loop"] = {job.loops[which].loop.first, job.loops[which].loop.last};
         if (job.builds.size() > 1)
-            performed["legs"] = build.legs, performed["arms"] = build.arms, performed["spine"] = build.spine,
-            performed["speed"] = part.pace;
+            performed.update(
+                {{"legs", build.legs}, {"arms", build.arms}, {"spine", build.spine}, {"speed", part.pace}});
     }
     if (!job.loops.empty()) out["loop"] = {job.loops[0].loop.first, job.loops[0].loop.last};
-    std::vector<std::string> notes = motion_notes(options, file, job);
-    std::ranges::copy(loop_notes(job), std::back_inserter(notes));
+    std::vector<std::string> notes = file.notes();
+    std::ranges::move(rest_notes(options, file, job), std::back_inserter(notes));
+    std::ranges::move(loop_notes(job), std::back_inserter(notes));
     if (!notes.empty()) out["notes"] = notes;
-    for (const Limb& limb : job.limbs) {
+    for (std::size_t n = 0; n < job.limbs.size(); ++n) {
+        const Limb& limb = job.limbs[n];
         const LimbWords& words = words_of(limb.name.kind);
-        out[fmt::format("{}_bound", words.limbs)].push_back(
-            {{"side", side_name(limb.name.side)},
-             {words.upper_joint, joint_at(clip, limb.upper()).name},
-             {words.lower_joint, joint_at(clip, limb.lower()).name},
-             {words.end_joint, joint_at(clip, limb.end()).name},
-             {"lengths", {limb.bound.lengths[0], limb.bound.lengths[1]}},
-             {"bend", {limb.bend.x(), limb.bend.y(), limb.bend.z()}},
-             {"bend_source", limb.bend_source},
-             {"unevenness", limb.unevenness},
-             {"notes", limb.notes}});
-        const auto held = job.plan.limbs[static_cast<std::size_t>(&limb - job.limbs.data())].holds;
-        if (held) out[fmt::format("{}_bound", words.limbs)].back()["holds"] = limb_word(job.limbs[*held].name);
+        Json& bound = out[fmt::format("{}_bound", words.limbs)].emplace_back();
+        bound = {{"side", side_name(limb.name.side)},
+                 {words.upper_joint, joint_at(clip, limb.upper()).name},
+                 {words.lower_joint, joint_at(clip, limb.lower()).name},
+                 {words.end_joint, joint_at(clip, limb.end()).name},
+                 {"lengths", limb.bound.lengths},
+                 {"bend", limb.bend},
+                 {"bend_source", limb.bend_source},
+                 {"unevenness", limb.unevenness},
+                 {"notes", limb.notes}};
+        if (const auto holds = job.plan.limbs[n].goals.holds) bound["holds"] = limb_word(job.limbs[holds - 1].name);
     }
-    for (const LimbFinding& finding : job.missing)
-        out["missing"].push_back({{"limb", limb_word(finding.name)}, {"problem", problem_text(finding)}});
+    add_missing(out, job.missing);
     return out;
 }
 

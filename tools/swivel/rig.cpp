@@ -4,10 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -31,86 +29,74 @@ namespace {
 using formats::Clip;
 
 // The file's own number of a joint; null for the one above a root.
-nlohmann::ordered_json number_of(const Clip& clip, int joint)
+Json number_of(const Clip& clip, int joint) { return joint < 0 ? Json() : Json(joint_at(clip, joint).number); }
+
+Json json_of(const AngleRange& range) { return {range.min, range.max}; }
+
+Json json_of_frame(const Clip& clip, const Limb& limb, const Facing& facing)
 {
-    return joint < 0 ? nlohmann::ordered_json() : nlohmann::ordered_json(joint_at(clip, joint).number);
-}
-
-std::vector<double> vector_of(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
-
-nlohmann::ordered_json json_of(const AngleRange& range) { return {range.min, range.max}; }
-
-nlohmann::ordered_json json_of_frame(const Clip& clip, const Limb& limb, const Facing& facing)
-{
-    nlohmann::ordered_json out;
+    Json out;
     for (int n = 0; n < 3; ++n) {
         const Eigen::Vector3d axis_w = limb.axes_w.col(n);
-        out["axes"][std::array{"x", "y", "z"}[static_cast<std::size_t>(n)]] = {
-            {"world", vector_of(axis_w)}, {"points", direction_words(axis_w, facing)}};
+        out["axes"][std::string(1, "xyz"[n])] = {{"world", axis_w}, {"points", direction_words(axis_w, facing)}};
     }
     if (const std::optional<LimbRange> range = range_of(clip, limb))
-        out["clip_range"] = {{"bend", vector_of(range->bend)},
+        out["clip_range"] = {{"bend", range->bend},
                              {"upper_from_z_deg", json_of(range->from_z)},
-                             {"shoulder_cone", {{"axis", vector_of(range->axis)}, {"opening_deg", range->opening_deg}}},
+                             {"shoulder_cone", {{"axis", range->axis}, {"opening_deg", range->opening_deg}}},
                              {"flexion_deg", json_of(range->flexion)}};
     return out;
 }
 
 // The limb alone, as Python's bind_joints() takes a skeleton: joint 0 is the shoulder, 1 the elbow, 2 the wrist.
-nlohmann::ordered_json json_of(const formats::LimbRest& rest)
+Json json_of(const formats::LimbRest& rest)
 {
     return {{"parents", {-1, 0, 1}},
             {"translations", {{0, 0, 0}, rest.elbow_offset, rest.wrist_offset}},
             {"rotations", {rest.shoulder_rotation, rest.elbow_rotation, rest.wrist_rotation}}};
 }
 
-nlohmann::ordered_json json_of(const Clip& clip, const LimbFinding& finding, const Facing& facing)
+Json json_of(const Clip& clip, const LimbFinding& finding, const Facing& facing)
 {
-    nlohmann::ordered_json out{{"limb", limb_word(finding.name)}, {"bound", finding.limb.has_value()}};
+    Json out{{"limb", limb_word(finding.name)}, {"bound", finding.limb.has_value()}};
     if (!finding.limb) {
         out["problem"] = problem_text(finding);
         return out;
     }
     const Limb& limb = *finding.limb;
-    const auto names = [&](const auto& joints) {
-        auto all = nlohmann::ordered_json::array();
-        for (const int joint : joints) all.push_back(joint_at(clip, joint).name);
-        return all;
-    };
     out["named_by"] = limb.from;
-    out["joints"] = names(limb.joints);
+    out["joints"] = names_json(clip, limb.joints);
     for (const int joint : limb.joints) out["numbers"].push_back(joint_at(clip, joint).number);
-    out["lengths"] = {limb.bound.lengths[0], limb.bound.lengths[1]};
+    out["lengths"] = limb.bound.lengths;
     out["scale"] = limb.scale;
     out["mirrored"] = limb.mirrored;
-    out["upper_bone"] = vector_of(limb.upper_bone);
-    out["lower_bone"] = vector_of(limb.lower_bone);
-    out["bend"] = vector_of(limb.bend);
+    out["upper_bone"] = limb.upper_bone;
+    out["lower_bone"] = limb.lower_bone;
+    out["bend"] = limb.bend;
     out["bend_source"] = limb.bend_source;
     out["skeleton"] = json_of(limb_rest(clip, limb.chain, limb.bend));
     out.update(json_of_frame(clip, limb, facing));
-    out["joints_between"] = names(limb.chain.between());
+    out["joints_between"] = names_json(clip, limb.chain.between());
     out["unevenness"] = limb.unevenness;
     if (!limb.notes.empty()) out["notes"] = limb.notes;
     return out;
 }
 
-nlohmann::ordered_json json_of(const MotionFile& motion, const std::string& file, const LimbSearch& search,
-                               bool with_joints)
+Json json_of(const MotionFile& motion, const std::string& file, const LimbSearch& search, bool with_joints)
 {
     const Clip& clip = motion.clip();
     const Facing& facing = search.facing;
-    nlohmann::ordered_json out{{"file", file},
-                               {"motion", motion.describe()},
-                               {"joints", clip.joints.size()},
-                               {"frames", clip.frame_count},
-                               {"frame_time", frame_time_of(clip)},
-                               {"faces", vector_of(facing.forwards_w)},
-                               {"faces_by", facing.forwards_source},
-                               {"up", vector_of(facing.up_w)},
-                               {"up_by", facing.up_source}};
+    Json out{{"file", file},
+             {"motion", motion.describe()},
+             {"joints", clip.joints.size()},
+             {"frames", clip.frame_count},
+             {"frame_time", frame_time_of(clip)},
+             {"faces", facing.forwards_w},
+             {"faces_by", facing.forwards_source},
+             {"up", facing.up_w},
+             {"up_by", facing.up_source}};
     if (const auto notes = motion.notes(); !notes.empty()) out["notes"] = notes;
-    if (const auto doubts = clip_doubts(clip, search.body); !doubts.empty()) out["doubts"] = doubts;
+    if (const auto doubts = texts_of(clip_doubts({clip, search.body})); !doubts.empty()) out["doubts"] = doubts;
     for (const LimbFinding& finding : search.findings) out["limbs"].push_back(json_of(clip, finding, facing));
     for (const BodyPart& part : search.body)
         for (const int joint : part.joints) out["body"][part.name].push_back(joint_at(clip, joint).number);
@@ -120,7 +106,7 @@ nlohmann::ordered_json json_of(const MotionFile& motion, const std::string& file
             out["joint_list"].push_back({{"number", clip.joints[n].number},
                                          {"name", clip.joints[n].name},
                                          {"parent", number_of(clip, clip.joints[n].parent)},
-                                         {"place", vector_of(rest_w[n].position)},
+                                         {"place", rest_w[n].position},
                                          {"bone", clip.joints[n].is_bone}});
     return out;
 }
@@ -129,10 +115,10 @@ using formats::printable;
 
 std::string name_of(const Clip& clip, int joint) { return printable_name(joint_at(clip, joint)); }
 
-std::string list(const Clip& clip, const std::vector<int>& joints)
+std::string list(const Clip& clip, const std::vector<int>& joints, const char* between)
 {
     std::string text;
-    for (const int joint : joints) text += (text.empty() ? "" : ", ") + name_of(clip, joint);
+    for (const int joint : joints) text += (text.empty() ? "" : between) + name_of(clip, joint);
     return text;
 }
 
@@ -140,8 +126,8 @@ std::string list(const Clip& clip, const std::vector<int>& joints)
 std::string toml_name(const Clip& clip, int joint)
 {
     const std::string& name = joint_at(clip, joint).name;
-    using Errors = nlohmann::ordered_json::error_handler_t;
-    const auto dumped = [&](Errors errors) { return nlohmann::ordered_json(name).dump(-1, ' ', false, errors); };
+    using Errors = Json::error_handler_t;
+    const auto dumped = [&](Errors errors) { return Json(name).dump(-1, ' ', false, errors); };
     // One text replaces bytes that are no UTF-8, the other drops them. So the texts are equal only without such bytes.
     const std::string quoted = dumped(Errors::replace);
     const bool can_be_written = name == printable(name, name.size()) && quoted == dumped(Errors::ignore);
@@ -188,7 +174,7 @@ void print_limb(const Clip& clip, const Limb& limb, const Facing& facing)
     say(stdout, "           bends towards {} in its joint's axes: {}\n", vector_text(limb.bend), limb.bend_source);
     print_axes(limb, facing);
     if (const auto inner = limb.chain.between(); !inner.empty())
-        say(stdout, "           joints in between, which keep their own motion: {}\n", list(clip, inner));
+        say(stdout, "           joints in between, which keep their own motion: {}\n", list(clip, inner, ", "));
     for (const std::string& note : limb.notes) say(stdout, "           note: {}\n", note);
     print_range(clip, limb);
 }
@@ -210,9 +196,8 @@ void print_body(const Clip& clip, const std::vector<BodyPart>& body)
     const char* heading = "body";
     for (const BodyPart& part : body) {
         if (is_limb_part(part)) continue;
-        std::string names;
-        for (const int joint : part.joints) names += (names.empty() ? "" : " > ") + name_of(clip, joint);
-        say(stdout, "{:<10} {}: {}\n", heading, part.name, formats::printable(names, formats::kMaxQuoted));
+        say(stdout, "{:<10} {}: {}\n", heading, part.name,
+            printable(list(clip, part.joints, " > "), formats::kMaxQuoted));
         heading = "";
     }
     if (!joints_of(body, "spine").empty() && joints_of(body, "head").empty())
@@ -235,13 +220,12 @@ void print_rig(const MotionFile& motion, const std::string& file, const LimbSear
 {
     const Clip& clip = motion.clip();
     const Facing& facing = search.facing;
-    const auto bones = std::count_if(clip.joints.begin(), clip.joints.end(), [](const auto& at) { return at.is_bone; });
-    say(stdout, "{}: {}, {} joints, {} of them bones, {} frame{}\n", printable(file, std::string::npos),
-        motion.describe(), clip.joints.size(), bones, clip.frame_count, clip.frame_count == 1 ? "" : "s");
+    say(stdout, "{}: {}, {} joints, {} of them bones, {}\n", shown_file(file), motion.describe(), clip.joints.size(),
+        std::ranges::count(clip.joints, true, &formats::Joint::is_bone), counted(clip.frame_count, "frame"));
     say(stdout, "faces {}, told by {}; up is {}, told by {}\n", vector_text(facing.forwards_w), facing.forwards_source,
         vector_text(facing.up_w), facing.up_source);
     for (const std::string& note : motion.notes()) say(stdout, "note: {}\n", note);
-    for (const std::string& doubt : clip_doubts(clip, search.body)) say(stdout, "look: {}\n", doubt);
+    for (const ClipDoubt& doubt : clip_doubts({clip, search.body})) say(stdout, "look: {}\n", doubt.text);
     for (const LimbFinding& finding : search.findings) {
         if (finding.limb)
             print_limb(clip, *finding.limb, facing);
@@ -261,17 +245,14 @@ void run_rig(const RigOptions& options)
     const std::string& file = options.clip.file;
     const LimbChoice choice = choice_of(options.clip);
     MotionFile motion(file, options.clip.motion);
-    const FigureJoints joints = choose_joints(motion.clip(), file, choice);
-    motion.sample(joints_of(joints));
-    motion.fix_rest_pose(known_limbs(joints));
+    const FigureJoints joints = motion.find_limbs(choice);
     const LimbSearch search = bind_limbs(motion.clip(), joints, choice);
     const std::vector<LimbFinding>& findings = search.findings;
     if (options.json)
         print_json(json_of(motion, file, search, options.joints));
     else
         print_rig(motion, file, search, options.joints);
-    if (std::any_of(findings.begin(), findings.end(), [](const LimbFinding& each) { return each.limb.has_value(); }))
-        return;
+    if (std::ranges::any_of(findings, [](const LimbFinding& each) { return each.limb.has_value(); })) return;
     throw CommandError(
         1, fmt::format("{}: nothing binds: {}{}", file, problem_text(findings[0]),
                        findings[0].advice.empty() ? "; name joints with --arm and --leg, --joints lists them" : ""));

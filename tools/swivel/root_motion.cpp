@@ -26,6 +26,54 @@ JointPose at(const std::vector<JointPose>& pose_w, int joint)
     return joint < 0 ? JointPose() : pose_w[static_cast<std::size_t>(joint)];
 }
 
+// The new values of root and carrier.
+struct RootMotion {
+    TurnedJoint root, carrier;
+};
+RootMotion root_motion(const formats::Clip& clip, const MovedBody& body)
+{
+    RootMotion motion{{body.root, {}, {}}, {body.carrier, {}, {}}};
+    const bool is_new = body.root < 0;
+    const std::vector<JointPose> rest_w = formats::rest_pose(clip);
+    const int above = joint_at(clip, is_new ? body.carrier : body.root).parent;
+    const Quaterniond root_rest_w = at(rest_w, is_new ? above : body.root).rotation;
+    const auto carrier = static_cast<std::size_t>(body.carrier);
+    Quaterniond heading_w = Quaterniond::Identity();
+    for (std::size_t frame = 0; frame < clip.frame_count; ++frame) {
+        const std::vector<JointPose> pose_w = formats::world_pose(clip, frame);
+        // The hips' turn from rest is one about up, the heading, after one about a level axis.
+        const Quaterniond turn_w = at(pose_w, body.hips).rotation * at(rest_w, body.hips).rotation.conjugate();
+        const double about_up = turn_w.vec().dot(body.up_w);
+        if (std::hypot(turn_w.w(), about_up) > kUpsideDown) {
+            heading_w.w() = turn_w.w();
+            heading_w.vec() = about_up * body.up_w;
+            heading_w.normalize();
+        }
+        const Vector3d hips_w = at(pose_w, body.hips).position;
+        const Vector3d place_w = hips_w + (body.floor_height(hips_w) - hips_w.dot(body.up_w)) * body.up_w;
+        const JointPose above_w = at(pose_w, above);
+        const Quaterniond local = above_w.rotation.conjugate() * heading_w * root_rest_w;
+        const Quaterniond rotation = above_w.mirrored ? formats::mirrored(local) : local;
+        const Vector3d place = formats::to_inner(above_w, place_w);
+        motion.root.rotation.push_back(rotation);
+        motion.root.translation.push_back(place);
+        // Neither root has a scale, so what is below it stays exactly, whatever scales are above.
+        const JointPose old = is_new ? JointPose() : local_pose(clip, frame, static_cast<std::size_t>(body.root));
+        const Quaterniond back = rotation.conjugate();
+        motion.carrier.rotation.push_back(back * old.rotation * clip.rotation[frame * clip.joints.size() + carrier]);
+        motion.carrier.translation.push_back(
+            back * (formats::to_outer(old, formats::local_translation(clip, frame, carrier)) - place));
+    }
+    return motion;
+}
+
+// Puts a joint's values in place of those that it has, if any.
+void put(std::vector<TurnedJoint>& joints, TurnedJoint joint)
+{
+    const auto own = std::ranges::find(joints, joint.joint, &TurnedJoint::joint);
+    (own == joints.end() ? joints.emplace_back() : *own) = std::move(joint);
+}
+
 }  // namespace
 
 int root_joint(const formats::Clip& clip, int carrier, const std::string& file)
@@ -44,62 +92,30 @@ int root_joint(const formats::Clip& clip, int carrier, const std::string& file)
     return above >= 0 && formats::same_ignoring_case(joint_at(clip, above).name, kRoot) ? above : -1;
 }
 
-RootMotion::RootMotion(const formats::Clip& clip, int root, const MovedBody& body) : root_(root), carrier_(body.carrier)
-{
-    const std::vector<JointPose> rest_w = formats::rest_pose(clip);
-    const int above = joint_at(clip, root < 0 ? carrier_ : root).parent;
-    const Quaterniond root_rest_w = at(rest_w, root < 0 ? above : root).rotation;
-    const auto carrier = static_cast<std::size_t>(carrier_);
-    Quaterniond heading_w = Quaterniond::Identity();
-    for (std::size_t frame = 0; frame < clip.frame_count; ++frame) {
-        const std::vector<JointPose> pose_w = formats::world_pose(clip, frame);
-        // The hips' turn from rest is one about up, the heading, after one about a level axis.
-        const Quaterniond turn_w = at(pose_w, body.hips).rotation * at(rest_w, body.hips).rotation.conjugate();
-        const double about_up = turn_w.vec().dot(body.up_w);
-        if (std::hypot(turn_w.w(), about_up) > kUpsideDown) {
-            heading_w.w() = turn_w.w();
-            heading_w.vec() = about_up * body.up_w;
-            heading_w.normalize();
-        }
-        const Vector3d hips_w = at(pose_w, body.hips).position;
-        const Vector3d place_w = hips_w + (body.floor_height(hips_w) - hips_w.dot(body.up_w)) * body.up_w;
-        const JointPose above_w = at(pose_w, above);
-        const Quaterniond local = above_w.rotation.conjugate() * heading_w * root_rest_w;
-        root_rotation_.push_back(above_w.mirrored ? formats::mirrored(local) : local);
-        root_place_.push_back(formats::to_inner(above_w, place_w));
-        // Neither root has a scale, so what is below it stays exactly, whatever scales are above.
-        const JointPose old = root < 0 ? JointPose() : local_pose(clip, frame, static_cast<std::size_t>(root));
-        const Quaterniond back = root_rotation_.back().conjugate();
-        rotation_.push_back(back * old.rotation * clip.rotation[frame * clip.joints.size() + carrier]);
-        place_.push_back(
-            back * (formats::to_outer(old, formats::local_translation(clip, frame, carrier)) - root_place_.back()));
-    }
-}
-
-void RootMotion::add_to(std::vector<formats::JointKeys>& keys) const
-{
-    const auto put = [&](const formats::JointKeys& joint) {
-        const auto own = std::ranges::find(keys, joint.joint, &formats::JointKeys::joint);
-        if (own == keys.end())
-            keys.push_back(joint);
-        else
-            *own = joint;
-    };
-    put({carrier_, rotation_, place_});
-    if (root_ >= 0) put({root_, root_rotation_, root_place_});
-}
-
-std::optional<formats::NewJoint> RootMotion::added() const
-{
-    if (root_ >= 0) return std::nullopt;
-    return formats::NewJoint{kRoot, carrier_, root_rotation_, root_place_};
-}
-
 bool rests_on_ground(const formats::Clip& clip, int thigh, int ankle, const Eigen::Vector3d& up_w)
 {
     const std::vector<JointPose> rest_w = formats::rest_pose(clip);
     const double low = at(rest_w, ankle).position.dot(up_w), high = at(rest_w, thigh).position.dot(up_w);
     return std::abs(low) < 0.3 * (high - low);
+}
+
+void write_joints(const std::filesystem::path& out, const MotionFile& file, const formats::Clip& clip,
+                  std::vector<TurnedJoint> joints, const std::optional<formats::NewFrames>& frames,
+                  const std::optional<MovedBody>& body)
+{
+    RootMotion motion{};
+    std::optional<formats::NewJoint> new_root;
+    if (body) {
+        motion = root_motion(clip, *body);
+        put(joints, std::move(motion.carrier));
+        if (body->root < 0)
+            new_root = formats::NewJoint{kRoot, body->carrier, motion.root.rotation, motion.root.translation};
+        else
+            put(joints, std::move(motion.root));
+    }
+    std::vector<formats::JointKeys> keys;
+    for (const TurnedJoint& each : joints) keys.push_back({each.joint, each.rotation, each.translation});
+    file.write(out, keys, frames, new_root);
 }
 
 }  // namespace swivel::tools

@@ -1,19 +1,22 @@
 // SPDX-License-Identifier: MIT
 //
-// `--root-motion`: a body's way over the ground and its heading, on a joint `root` of their own above the hips, as game
-// engines want them. No joint below moves in the world.
+// Writes joints that move anew into their file. `--root-motion` puts a body's way over the ground and its heading on a
+// joint `root` of their own above the hips, as game engines want them. No joint below moves in the world.
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "tools/formats/joint_keys.h"
+#include "tools/feet/turn_legs.h"
+#include "tools/swivel/motion_file.h"
 
 namespace swivel::tools {
 
 // Whose way it is, and who carries it.
 struct MovedBody {
+    int root;                                                    // of root_joint()
     int carrier;                                                 // the joint whose keys move the body
     int hips;                                                    // the one that tells place and heading: it, or below
     Eigen::Vector3d up_w;                                        // an axis of the world
@@ -24,24 +27,13 @@ struct MovedBody {
 // one does. Throws InputError, naming `file`, if another joint has the name, in any case.
 int root_joint(const formats::Clip& clip, int carrier, const std::string& file);
 
-// New keys of root and carrier, one for each frame. To outlive what add_to() and added() return.
-class RootMotion {
-public:
-    // clip: as it is to look. root: of root_joint().
-    RootMotion(const formats::Clip& clip, int root, const MovedBody& body);
-
-    // Puts the keys in place of those that the joints have, if any.
-    void add_to(std::vector<formats::JointKeys>& keys) const;
-    // The new joint, if it is one.
-    std::optional<formats::NewJoint> added() const;
-
-private:
-    int root_, carrier_;
-    std::vector<Eigen::Quaterniond> root_rotation_, rotation_;
-    std::vector<Eigen::Vector3d> root_place_, place_;
-};
-
 // Whether a figure rests with its feet on the ground at height 0: an ankle is within 0.3 of the leg's height of it.
 bool rests_on_ground(const formats::Clip& clip, int thigh, int ankle, const Eigen::Vector3d& up_w);
+
+// Writes new values of a file's joints. clip: as it is to look with them. frames: replace the file's own. body: its way
+// goes to the root; without one it stays where it is.
+void write_joints(const std::filesystem::path& out, const MotionFile& file, const formats::Clip& clip,
+                  std::vector<TurnedJoint> joints, const std::optional<formats::NewFrames>& frames,
+                  const std::optional<MovedBody>& body);
 
 }  // namespace swivel::tools

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -27,7 +28,7 @@
 #include "tools/swivel/crowd_job.h"
 #include "tools/swivel/motion_keys.h"
 #include "tools/swivel/report.h"
-#include "tools/swivel/solve_files.h"
+#include "tools/swivel/run_files.h"
 #include "tools/swivel/view_page.h"
 
 namespace swivel::tools {
@@ -45,32 +46,6 @@ std::vector<goal_character> first_characters(const Cache& cache, std::uint32_t c
     return characters;
 }
 
-// The given goals of a cache's first characters, frame by frame, in order.
-class GivenGoals {
-public:
-    explicit GivenGoals(const Cache& cache) : cache_(cache) {}
-
-    // Replaces the formula's goals by those of a frame. Returns the limbs that have some.
-    std::vector<GivenPlace> put(std::uint32_t frame, GoalCrowd& solved)
-    {
-        const CachedCrowd& crowd = cache_.crowd();
-        std::vector<GivenPlace> places;
-        if (!crowd.has_given) return places;
-        const auto columns = (solved.character_count() + crowd.chunk.characters - 1) / crowd.chunk.characters;
-        goals_.resize(columns);
-        const std::uint32_t time = frame / crowd.chunk.frames, in_chunk = frame % crowd.chunk.frames;
-        for (std::uint32_t column = 0; column < columns; ++column) {
-            if (in_chunk == 0) goals_[column] = cache_.goals({time, column});
-            put_given(crowd, goals_[column], in_chunk, column * crowd.chunk.characters, solved, &places);
-        }
-        return places;
-    }
-
-private:
-    const Cache& cache_;
-    std::vector<ChunkGoals> goals_;  // of each column, in the time chunk at hand
-};
-
 // The page of a cache's crowd: of its first characters, or of all of them.
 void view_cache(const SolveOptions& options, const std::string& about_clip)
 {
@@ -87,13 +62,19 @@ void view_cache(const SolveOptions& options, const std::string& about_clip)
     const ThreadLimit limit(options.threads);
     GoalCrowd solved(setups, sources_of(crowd), first_characters(cache, count), 0, ground_of(crowd),
                      crowd.frame_seconds);
-    GivenGoals goals(cache);
+    const std::uint32_t wide = crowd.chunk.characters, columns = crowd.has_given ? (count + wide - 1) / wide : 0;
+    std::vector<ChunkGoals> goals(columns);  // given ones of each column, in the time chunk at hand
     const std::uint32_t frames = std::min(crowd.clip_frames, crowd.frame_count);  // as a page of the clip has them
     Progress progress("frames", frames, options.quiet);
     for (std::uint32_t frame = 0; frame < frames; ++frame) {
         progress.show(frame);
         solved.set_frame(frame);
-        const std::vector<GivenPlace> given = goals.put(frame, solved);
+        const std::uint32_t time = frame / crowd.chunk.frames, in_chunk = frame % crowd.chunk.frames;
+        std::vector<GivenPlace> given;
+        for (std::uint32_t column = 0; column < columns; ++column) {
+            if (in_chunk == 0) goals[column] = cache.goals({time, column});
+            put_given(crowd, goals[column], in_chunk, column * wide, solved, &given);
+        }
         solved.solve();
         page.add_frame(solved, given);
     }
@@ -149,19 +130,17 @@ void print_report(std::FILE* to, const SolveOptions& options, const Statistics& 
 {
     print_statistics(to, statistics);
     say(to, "time     {:.2f} s in all, {:.3f} s of it solving\n", seconds, statistics.solve_seconds);
-    for (const std::string& name : {options.out, options.export_targets, options.view})
-        if (!name.empty())
-            say(to, "written  {}\n", formats::is_standard_stream(name) ? "to standard output" : shown_file(name));
+    print_written(to, {options.out, options.export_targets, options.view});
 }
 
-nlohmann::ordered_json json_of_run(const SolveOptions& options, const MotionFile& file, const CrowdJob& job,
-                                   const Statistics& statistics, double seconds)
+Json json_of_run(const SolveOptions& options, const MotionFile& file, const CrowdJob& job, const Statistics& statistics,
+                 double seconds)
 {
-    nlohmann::ordered_json out = json_of_clip(options, file, job);
+    Json out = json_of_clip(options, file, job);
     for (const goal_character& each : characters_of(job.plan, job.limbs, file.clip().frame_count)) {
         out["each_character"].push_back(
             {{"place", each.place}, {"size", each.size}, {"start", each.first + each.start}});
-        nlohmann::ordered_json& character = out["each_character"].back();
+        Json& character = out["each_character"].back();
         if (!job.plan.agents.empty()) character["name"] = job.plan.agents[out["each_character"].size() - 1].name;
         if (job.plan.has_headings()) character["heading_deg"] = degrees_of(each);
         if (job.plan.carry) character["carries"] = each.carries == 1;
@@ -187,11 +166,12 @@ void run_solve(const SolveOptions& options)
     require_one_reader(options, options.targets.value_or("clip"));
     const LimbChoice choice = choice_of(options);
     if (!swivel_isa_name()) throw CommandError(1, swivel_last_error());
-    std::FILE* const reports = report_stream(options);
+    const std::array outputs{options.out, options.export_targets, options.view};
+    std::FILE* const reports = report_stream(outputs);
     MotionFile file(options.file, options.motion);
-    if (is_motion) file.require_can_write(options.out);
+    if (is_motion) file.require_can_write(options.out, false, " or .csv");
     CrowdJob job = make_job(options, choice, file);
-    require_own_files(options, file, job);
+    require_own_files(outputs, options, file, job);
     if (!options.json && !options.quiet) print_clip(reports, options, file, job);
 
     const ThreadLimit limit(options.threads);

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <string_view>
 
 #include "swivel/lecture.h"
 #include "tools/cli/command_error.h"
@@ -20,8 +19,6 @@
 namespace swivel::tools {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr const char* kTitles[] = {"the elbow point", "the elbow quaternion", "the middle line", "rotate to the elbow",
                                    "rotate to the wrist"};
@@ -35,19 +32,17 @@ constexpr auto kBladeOrder = [] {
     return order;
 }();
 
-// An arm in its arm frame.
-struct StepsArm {
+// The steps of an arm in its arm frame.
+struct Steps {
     std::array<double, 3> target, pole;
     double upper, fore;
+    std::array<swivel_entity, SWIVEL_ENTITY_COUNT> entities{};
+    double closing_error = 0;
 };
 
-struct Steps {
-    std::array<swivel_entity, SWIVEL_ENTITY_COUNT> entities;
-    double closing_error;
-};
-
-// Throws CommandError for a value that swivel_steps() does not take, and names its option.
-StepsArm given_arm(const StepsOptions& options)
+// Throws CommandError for a value that swivel_steps() does not take, and names its option. The library says what is
+// undefined; this says what to do.
+Steps steps_of(const StepsOptions& options)
 {
     constexpr double kShortest = 1e-15, kLongest = 1e15;  // as lecture.h has them
     const auto require_all = [](const char* option, const std::string& text, auto fits, const char* range) {
@@ -64,7 +59,11 @@ StepsArm given_arm(const StepsOptions& options)
         return std::array{v[0], v[1], v[2]};
     };
     const std::vector<double> lengths = formats::numbers_of(options.lengths);
-    return {vector(options.target), vector(options.pole), lengths[0], lengths[1]};
+    Steps steps{vector(options.target), vector(options.pole), lengths[0], lengths[1]};
+    const char* const why = swivel_steps(steps.target.data(), steps.pole.data(), steps.upper, steps.fore,
+                                         steps.entities.data(), &steps.closing_error);
+    if (why) throw CommandError(1, fmt::format("steps: {}; change --target, --pole or --lengths", why));
+    return steps;
 }
 
 // Leaves out coefficients that are rounding beside the largest. 1e-14 of that is 45 roundings of a double, more than
@@ -84,9 +83,9 @@ std::string text_of(const swivel_entity& entity)
     return text.empty() ? "0" : text;
 }
 
-Json json_of(const StepsArm& arm, const Steps& steps)
+Json json_of(const Steps& steps)
 {
-    Json out{{"target", arm.target}, {"pole", arm.pole}, {"lengths", {arm.upper, arm.fore}}};
+    Json out{{"target", steps.target}, {"pole", steps.pole}, {"lengths", {steps.upper, steps.fore}}};
     for (const swivel_entity& entity : steps.entities) {
         Json coefficients = Json::object();
         for (const std::uint32_t blade : kBladeOrder)
@@ -100,41 +99,30 @@ Json json_of(const StepsArm& arm, const Steps& steps)
     return out;
 }
 
-void print_steps(const StepsArm& arm, const Steps& made)
+void print_steps(const Steps& steps)
 {
     const auto shown = [](const std::array<double, 3>& v) {
         return fmt::format("({:.9g}, {:.9g}, {:.9g})", v[0], v[1], v[2]);
     };
-    say(stdout, "arm      target {}, pole {}, upper arm {:.9g}, forearm {:.9g}\n", shown(arm.target), shown(arm.pole),
-        arm.upper, arm.fore);
+    say(stdout, "arm      target {}, pole {}, upper arm {:.9g}, forearm {:.9g}\n", shown(steps.target),
+        shown(steps.pole), steps.upper, steps.fore);
     std::uint32_t step = 0;
-    for (const swivel_entity& entity : made.entities) {
+    for (const swivel_entity& entity : steps.entities) {
         if (entity.step != step) {
             step = entity.step;
             say(stdout, "\nstep {}   {}\n", step, kTitles[step - 1]);
         }
         say(stdout, "{:<10} = {}\n{:<12} {}\n", entity.name, text_of(entity), "", entity.meaning);
     }
-    say(stdout, "\nclosing  q_s and q_e put the wrist {:.1e} arm lengths from the target\n", made.closing_error);
-}
-
-// The library says what is undefined; this says what to do.
-Steps steps_of(const StepsArm& arm)
-{
-    Steps steps;
-    const char* const why = swivel_steps(arm.target.data(), arm.pole.data(), arm.upper, arm.fore, steps.entities.data(),
-                                         &steps.closing_error);
-    if (why) throw CommandError(1, fmt::format("steps: {}; change --target, --pole or --lengths", why));
-    return steps;
+    say(stdout, "\nclosing  q_s and q_e put the wrist {:.1e} arm lengths from the target\n", steps.closing_error);
 }
 
 }  // namespace
 
 void run_steps(const StepsOptions& options)
 {
-    const StepsArm arm = given_arm(options);
-    const Steps made = steps_of(arm);
-    options.json ? print_json(json_of(arm, made)) : print_steps(arm, made);
+    const Steps steps = steps_of(options);
+    options.json ? print_json(json_of(steps)) : print_steps(steps);
 }
 
 }  // namespace swivel::tools

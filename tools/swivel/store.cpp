@@ -20,46 +20,32 @@
 #include "tools/swivel/cached_clip.h"
 #include "tools/swivel/crowd_job.h"
 #include "tools/swivel/report.h"
-#include "tools/swivel/solve_files.h"
+#include "tools/swivel/run_files.h"
 
 namespace swivel::tools {
 
 namespace {
 
-// The given goals of one time chunk, by column.
-class GoalChunks {
-public:
-    GoalChunks(const CachedCrowd& crowd, std::uint32_t time) : crowd_(crowd), time_(time) {}
-
-    void add_given(std::uint32_t frame, const ClipCrowd& solved)
-    {
-        const std::size_t limbs = crowd_.limb_count(), wide = crowd_.chunk.characters;
-        for (const GivenPlace& place : solved.given_places()) {
-            ChunkGoals& goals = columns_[place.character / crowd_.chunk.characters];
-            if (goals.target.empty()) {
-                const std::size_t count = crowd_.chunk.frames * limbs * wide;
-                goals.target.assign(3 * count, std::numeric_limits<double>::quiet_NaN());
-                goals.pole = goals.target;
-                goals.hand.assign(4 * count, std::numeric_limits<float>::quiet_NaN());
-            }
-            const std::size_t at = (frame * limbs + place.limb) * wide + place.character % wide;
-            const goal_input& input = solved.goal_crowd().input(place.limb, place.character);
-            std::copy_n(input.target, 3, &goals.target[3 * at]);
-            if (input.weights[2] > 0) std::copy_n(input.pole, 3, &goals.pole[3 * at]);
-            std::copy_n(input.hand, 4, &goals.hand[4 * at]);
+// Adds the given goals of one frame to those of its time chunk, by column. frame: in the chunk.
+void add_given(std::uint32_t frame, const ClipCrowd& solved, const CachedCrowd& crowd,
+               std::map<std::uint32_t, ChunkGoals>& columns)
+{
+    const std::size_t limbs = crowd.limb_count(), wide = crowd.chunk.characters;
+    for (const GivenPlace& place : solved.given_places()) {
+        ChunkGoals& goals = columns[place.character / crowd.chunk.characters];
+        if (goals.target.empty()) {
+            const std::size_t count = crowd.chunk.frames * limbs * wide;
+            goals.target.assign(3 * count, std::numeric_limits<double>::quiet_NaN());
+            goals.pole = goals.target;
+            goals.hand.assign(4 * count, std::numeric_limits<float>::quiet_NaN());
         }
+        const std::size_t at = (frame * limbs + place.limb) * wide + place.character % wide;
+        const goal_input& input = solved.goal_crowd().input(place.limb, place.character);
+        std::copy_n(input.target, 3, &goals.target[3 * at]);
+        if (input.weights[2] > 0) std::copy_n(input.pole, 3, &goals.pole[3 * at]);
+        std::copy_n(input.hand, 4, &goals.hand[4 * at]);
     }
-
-    void write(CacheMaker& maker) const
-    {
-        for (const auto& [column, goals] : columns_) maker.write_goals({time_, column}, goals);
-    }
-
-private:
-    const CachedCrowd& crowd_;
-    std::uint32_t time_;
-    std::map<std::uint32_t, ChunkGoals> columns_;
-};
+}
 
 void write_characters(CacheMaker& maker, const CrowdJob& job, bool quiet)
 {
@@ -82,14 +68,14 @@ void write_goals(CacheMaker& maker, const StoreOptions& options, const MotionFil
     ClipCrowd given(file.clip(), job.limbs, job.plan);
     Progress progress("frames", crowd.frame_count, options.crowd.quiet);
     for (std::uint32_t time = 0; time < crowd.time_count(); ++time) {
-        GoalChunks chunks(crowd, time);
+        std::map<std::uint32_t, ChunkGoals> columns;
         for (std::uint32_t n = 0; n < crowd.frames_in(time); ++n) {
             const std::uint32_t frame = time * crowd.chunk.frames + n;
             progress.show(frame);
             given.set_frame(frame, job.given->of_frame(frame));
-            chunks.add_given(n, given);
+            add_given(n, given, crowd, columns);
         }
-        chunks.write(maker);
+        for (const auto& [column, goals] : columns) maker.write_goals({time, column}, goals);
     }
 }
 
@@ -108,13 +94,8 @@ ChunkShape chunk_of(const std::string& text)
     return {static_cast<std::uint32_t>(*frames), static_cast<std::uint32_t>(*characters)};
 }
 
-// The size of all chunks of some arrays.
-std::uint64_t bytes_of(const std::vector<ZarrArray>& arrays)
-{
-    std::uint64_t bytes = 0;
-    for (const ZarrArray& array : arrays) bytes += std::uint64_t{array.chunk_bytes()} * array.chunk_count();
-    return bytes;
-}
+// The size of all chunks of an array.
+std::uint64_t bytes_of(const ZarrArray& array) { return std::uint64_t{array.chunk_bytes()} * array.chunk_count(); }
 
 CachedCrowd crowd_to_store(const StoreOptions& options, const MotionFile& file, const CrowdJob& job)
 {
@@ -153,13 +134,13 @@ void run_store(const StoreOptions& options)
     write_goals(maker, options, file, job);
     const std::uint64_t goals = maker.commit();
     const CacheArrays arrays(crowd);
-    std::vector<ZarrArray> kept;
+    std::uint64_t poses = 0, state = 0;
     for (std::size_t n = 0; n < arrays.fields.size(); ++n)
-        if (!arrays.fields[n].is_state_alone) kept.push_back(arrays.results[n]);
-    const std::uint64_t poses = bytes_of(kept), state = bytes_of(arrays.state);
+        if (!arrays.fields[n].is_state_alone) poses += bytes_of(arrays.results[n]);
+    for (const ZarrArray& array : arrays.state) state += bytes_of(array);
     const std::uint64_t chunks = std::uint64_t{crowd.time_count()} * crowd.column_count();
     if (options.crowd.json) {
-        nlohmann::ordered_json out = json_of_clip(options.crowd, file, job);
+        Json out = json_of_clip(options.crowd, file, job);
         out["cache"] = {{"folder", options.folder},
                         {"frames", crowd.frame_count},
                         {"chunks", chunks},

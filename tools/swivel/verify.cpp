@@ -27,12 +27,7 @@ namespace swivel::tools {
 namespace {
 
 using PartDigests = std::array<std::uint64_t, std::size(corpus::kParts)>;
-PartDigests golden_digests()
-{
-    PartDigests digests;
-    std::ranges::copy(corpus::kGoldenDigests, digests.begin());
-    return digests;
-}
+constexpr PartDigests kGolden = std::to_array(corpus::kGoldenDigests);
 
 struct Digest {
     std::string isa, how;
@@ -40,26 +35,17 @@ struct Digest {
     PartDigests expected;  // the golden ones; of crowds in other sizes the first instruction set's
 
     bool is_right() const { return parts == expected; }
-    bool is_golden() const { return expected == golden_digests(); }  // that is, should be
+    bool is_golden() const { return expected == kGolden; }  // that is, should be
 };
 
+// Solves the parts whose crowds have more limbs than that, and replaces their digests.
 template <class Solve>
-Digest whole_digest(const char* isa, Solve solve)
+PartDigests digests_of_parts(PartDigests digests, std::uint32_t limb_count, Solve solve)
 {
-    Digest digest{isa, "whole", {}, golden_digests()};
-    for (std::size_t n = 0; n < digest.parts.size(); ++n)
-        digest.parts[n] = corpus::fold(corpus::digests_of(corpus::kParts[n], solve));
-    return digest;
-}
-// Crowds of one block have no chunks, so these have the digests of the whole.
-template <class Solve>
-Digest chunked_digest(const Digest& whole, std::uint32_t chunk, Solve solve)
-{
-    Digest digest{whole.isa, fmt::format("chunks of {}", chunk), whole.parts, golden_digests()};
-    for (std::size_t n = 0; n < digest.parts.size(); ++n)
-        if (const corpus::Part part = corpus::kParts[n]; corpus::own_limb_count(part) > SWIVEL_LANES)
-            digest.parts[n] = corpus::fold(corpus::digests_of(part, solve));
-    return digest;
+    for (std::size_t n = 0; n < digests.size(); ++n)
+        if (const corpus::Part part = corpus::kParts[n]; corpus::own_limb_count(part) > limb_count)
+            digests[n] = corpus::fold(corpus::digests_of(part, solve));
+    return digests;
 }
 
 // A crowd of each part, so large that oneTBB shares it out.
@@ -91,14 +77,17 @@ void add_digests(const char* isa, std::vector<Digest>& digests)
         job.on_this_thread = is_one_thread();
         crowd.solve(job);
     };
-    const Digest whole = whole_digest(isa, solve);
-    digests.push_back(whole);
-    for (const std::uint32_t chunk : {1u, 2u, 3u, 5u, 64u})
-        digests.push_back(chunked_digest(
-            whole, chunk, [chunk](Crowd& crowd, const Job& job) { solve_in_chunks(crowd, job, chunk); }));
+    const PartDigests whole = digests_of_parts({}, 0, solve);
+    digests.push_back({isa, "whole", whole, kGolden});
+    for (const std::uint32_t chunk : {1u, 2u, 3u, 5u, 64u}) {
+        const auto solve_chunks = [chunk](Crowd& crowd, const Job& job) { solve_in_chunks(crowd, job, chunk); };
+        // Crowds of one block have no chunks, so they have the digests of the whole.
+        digests.push_back(
+            {isa, fmt::format("chunks of {}", chunk), digests_of_parts(whole, SWIVEL_LANES, solve_chunks), kGolden});
+    }
     for (const unsigned threads : {1u, 2u}) {
         const ThreadLimit limit(threads);
-        const std::string how = fmt::format("large, {} thread{}", threads, threads == 1 ? "" : "s");
+        const std::string how = "large, " + counted(threads, "thread");
         const PartDigests parts = large_digests(solve);
         const auto first = std::ranges::find_if(digests, [](const Digest& d) { return d.how.starts_with("large"); });
         digests.push_back({isa, how, parts, first == digests.end() ? parts : first->parts});
@@ -131,7 +120,7 @@ void print_check(const swivel_check& c)
         c.max_limit, c.rms, rms_limit, is_within(c) ? "" : "  FAILED");
 }
 
-void append_check(const swivel_check& c, nlohmann::ordered_json& list)
+void append_check(const swivel_check& c, Json& list)
 {
     list.push_back({{"name", c.name},
                     {"set", c.set},
@@ -146,7 +135,7 @@ void append_check(const swivel_check& c, nlohmann::ordered_json& list)
 // Receives the checks. An exception may not pass through the library, so it is kept until the end.
 struct Listener {
     bool json;
-    nlohmann::ordered_json checks = nlohmann::ordered_json::array();
+    Json checks = Json::array();
     std::exception_ptr failure{};
 };
 
@@ -172,11 +161,11 @@ void print_digests(const std::vector<Digest>& digests)
         say(stdout, "{}\n", d.is_right() ? "" : "  DIFFERS");
     }
 }
-nlohmann::ordered_json json_of(const std::vector<Digest>& digests)
+Json json_of(const std::vector<Digest>& digests)
 {
-    nlohmann::ordered_json list;
+    Json list;
     for (const Digest& d : digests) {
-        nlohmann::ordered_json each{{"isa", d.isa}, {"how", d.how}};
+        Json each{{"isa", d.isa}, {"how", d.how}};
         for (std::size_t n = 0; n < d.parts.size(); ++n)
             each[corpus::name_of(corpus::kParts[n])] = fmt::format("{:016x}", d.parts[n]);
         each["golden"] = d.is_golden();

@@ -117,16 +117,7 @@ fs::path shared_file(const char* name)
     return fs::read_symlink("/proc/self/exe").parent_path() / "../share/swivel" / name;
 }
 
-ViewPage::ViewPage(const fs::path& path) : out_(page_name(path))
-{
-    const std::string text = page_program();
-    const std::size_t script = text.find(kDigestPlace) + kDigestPlace.size(), place = text.find(kPlace, script),
-                      after_place = place + kPlace.size(), end = text.find(kScriptEnd, after_place);
-    before_ = text.substr(0, script - std::string_view("\">").size());
-    script_begin_ = text.substr(script, place - script);
-    script_end_ = text.substr(after_place, end - after_place);
-    after_ = text.substr(end);
-}
+ViewPage::ViewPage(const fs::path& path) : out_(page_name(path)), program_(page_program()) {}
 
 void ViewPage::add_frame(const GoalCrowd& crowd, std::span<const GivenPlace> places)
 {
@@ -176,12 +167,16 @@ void ViewPage::commit(const CachedCrowd& cached, const GoalCrowd& crowd, const s
     for (std::size_t n = 0; n < cached.limbs.size(); ++n)
         page["limbs"].push_back(json_of_limb(cached.limbs[n], skeleton.limbs[n]));
     for (const std::uint64_t digest : digests_) page["digests"].push_back(fmt::format("{:016x}", digest));
-    std::string script = std::move(script_begin_);
+    const std::size_t begin = program_.find(kDigestPlace) + kDigestPlace.size(), place = program_.find(kPlace, begin),
+                      after_place = place + kPlace.size(), end = program_.find(kScriptEnd, after_place);
+    std::string script = program_.substr(begin, place - begin);
     append_script_text(script, page);
-    script += script_end_;
-    out_.write(fmt::format("{}{:016x}\">", before_, script_digest(script)));
+    script += program_.substr(after_place, end - after_place);
+    constexpr std::string_view kDigestEnd = "\">";
+    out_.write(program_.substr(0, begin - kDigestEnd.size()));
+    out_.write(fmt::format("{:016x}{}", script_digest(script), kDigestEnd));
     out_.write(script);
-    out_.write(after_);
+    out_.write(program_.substr(end));
     out_.commit();
 }
 

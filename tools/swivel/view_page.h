@@ -34,9 +34,8 @@ public:
     void commit(const CachedCrowd& cached, const GoalCrowd& crowd, const std::optional<PageSkin>& skin = {});
 
 private:
-    // The program's parts: up to the digest's place, from there to the crowd's, and from the script's end on.
-    std::string before_, script_begin_, script_end_, after_;
     formats::OutputFile out_;
+    std::string program_;
     std::vector<std::uint64_t> digests_;  // by frame
     std::vector<goal_given> given_;
 };
