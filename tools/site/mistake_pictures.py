@@ -1,19 +1,11 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Draws one body as Crowd.draw() shows it: as it should be, and with seven mistakes in its input that no call refuses.
-
-    PYTHONPATH=build/dev/python tools/site/mistake_pictures.py mistakes.svg"""
-import sys
-
-import matplotlib
+"""One body as Crowd.draw() shows it: as it should be, and with seven mistakes in its input that no call refuses. pictures.py draws it."""
 import numpy as np
+from matplotlib.collections import LineCollection
+from pictures import INK, plt
 
 import swivel
 from swivel import BodyGroup, Feature, Field, Pose, Skeleton
-
-matplotlib.use("svg")
-import matplotlib.pyplot as plt  # noqa: E402
-from matplotlib.collections import LineCollection  # noqa: E402
 
 # A pelvis with two legs, and a chest with two arms, 1.7 m tall; it faces z.
 NAMES = ["pelvis", "l_thigh", "l_shin", "l_foot", "r_thigh", "r_shin", "r_foot", "chest", "l_upper", "l_fore", "l_hand", "r_upper", "r_fore", "r_hand"]
@@ -23,7 +15,7 @@ PLACES = np.float32([(0, 0.95, 0), (0.1, -0.05, 0), (0, -0.45, 0), (0, -0.42, 0)
 LIMBS = {"l_thigh": -1, "r_thigh": -1, "l_upper": 1, "r_upper": 1}  # the first joint, and where flexion carries the lower bone along z
 ROOT, ROOT_TURN = np.array((2.0, 0.0, -1.0)), 0.6
 FEATURES = Feature.WITH_HAND | Feature.WITH_RECORD
-PANEL = 1.35  # half of a panel's height, metres
+PANEL = 1.35  # half of a panel's side, metres
 
 
 def about(axis, angle):
@@ -81,7 +73,7 @@ def drawn(mistake=None):
             goal[:2] = 100 * goal[0], 100 * goal[1]
     if mistake == "quaternions w first":
         pose = np.ascontiguousarray(pose[:, [3, 0, 1, 2]])
-    elif mistake == "matrices of the other order":
+    elif mistake == "matrices transposed":
         pose = pose * np.float32((-1, -1, -1, 1))
     elif mistake == "the root forgotten":
         root = {}
@@ -102,20 +94,18 @@ def show(axes, title, names, lines, colors):
     widths = [4 if name == "bone" else 2 for name in names]
     axes.add_collection(LineCollection(flat[~are_points], colors=colors[~are_points] / 255, linewidths=np.array(widths)[~are_points]))
     axes.scatter(*flat[are_points, 0].T, s=60, c=colors[are_points] / 255, zorder=3)
-    axes.set(xlim=middle[0] + np.array((-PANEL, PANEL)), ylim=middle[1] + np.array((-PANEL, PANEL)), xticks=[], yticks=[], facecolor="#22324a")
-    axes.set_title(title)
+    axes.set(xlim=middle[0] + np.array((-PANEL, PANEL)), ylim=middle[1] + np.array((-PANEL, PANEL)), xticks=[], yticks=[], facecolor=INK)
+    axes.set_title(title, size=13)
 
 
-MISTAKES = ["y and z exchanged", "quaternions w first", "matrices of the other order", "targets from the root", "the bend the other way",
+MISTAKES = ["y and z exchanged", "quaternions w first", "matrices transposed", "targets from the root", "the bend the other way",
             "the root forgotten", "targets in centimetres"]
 
 
-def main():
-    figure, panels = plt.subplots(2, 4, figsize=(16, 8.4), layout="constrained")
-    for axes, mistake in zip(panels.flat, [None, *MISTAKES]):
-        show(axes, mistake or "as it should be", *drawn(mistake))
-    figure.savefig(sys.argv[1], metadata={"Date": None})
-
-
-if __name__ == "__main__":
-    main()
+def mistakes():
+    width, height = 760, 430  # pixels; panels of 180, with a title above each
+    figure = plt.figure(figsize=(width / 72, height / 72))
+    for n, mistake in enumerate([None, *MISTAKES]):
+        left, bottom = 8 + 188 * (n % 4), (222, 8)[n // 4]
+        show(figure.add_axes((left / width, bottom / height, 180 / width, 180 / height)), mistake or "as it should be", *drawn(mistake))
+    return figure
