@@ -1,94 +1,76 @@
 // SPDX-License-Identifier: MIT
-// Rollback, as in games over a network. A client plays on with inputs that it guesses. The server's inputs come ten
-// frames late: some heads have turned to something else. The client loads the state of that frame and plays ten frames
-// again, so its bodies are the server's to the bit. A late visitor loads the state into a new crowd.
+// Rollback, as in games over a network. The client guesses inputs, and the server's arrive ten frames late. The client
+// then loads the state of the first frame that it guessed wrong, plays on from there, and has the server's bits.
 #include <array>
 #include <cstddef>
 #include <cstdio>
 #include <swivel/swivel_bodies.hpp>
 #include <vector>
 
-namespace {
+using Float3 = std::array<float, 3>;
+using Float4 = std::array<float, 4>;  // a rotation: x, y, z, w
 
-constexpr std::uint32_t kBodies = 100;
-constexpr int kTurn = 90, kLate = 10;  // frames
-enum Joint : std::uint32_t { PELVIS, CHEST, HEAD, THIGH, SHIN, FOOT, JOINTS };
-constexpr std::int32_t kParents[JOINTS] = {-1, PELVIS, CHEST, PELVIS, THIGH, SHIN};
-constexpr float kOffsets[JOINTS][3] = {{0, 0.9f, 0}, {0, 0.3f, 0},       {0, 0.3f, 0},
-                                       {0.1f, 0, 0}, {0, -0.45f, 0.05f}, {0, -0.42f, -0.05f}};
+constexpr int kBodies = 100, kChange = 90, kLate = 10;  // the last two in frames
 
-struct Input {  // of a body in a frame: all that a solve takes, beside its pose
-    std::array<float, 3> root, target;
-    float contact;
-};
-using Frame = std::vector<Input>;
-using Poses = std::vector<std::array<std::array<float, 4>, JOINTS>>;  // x, y, z, w of each joint
-
+// Bodies look with two joints, a chest and a head. These turn slowly, so each frame starts from the directions that the
+// frame before has left. Where the bodies look is their state.
 swivel::Crowd make_crowd()
 {
+    const std::int32_t parents[] = {-1, 0};
+    const float places[][3] = {{0, 1.2f, 0}, {0, 0.3f, 0}};
     swivel_skeleton skeleton = swivel_default_skeleton();
-    skeleton.parents = {kParents, sizeof kParents[0]};
-    skeleton.translations = {kOffsets, sizeof kOffsets[0]};
-    skeleton.joint_count = JOINTS;
-    swivel_limb_joints leg = swivel_default_limb_joints(THIGH, SHIN, FOOT);
-    leg.bend[2] = -1;
-    return swivel::Crowd(
-        skeleton, kBodies,
-        {swivel::body_limb(leg, SWIVEL_WITH_PLANT | SWIVEL_POLE_INCOMING), swivel::look({CHEST, HEAD})});
+    skeleton.parents = swivel::stream(parents);
+    skeleton.translations = swivel::stream(places);
+    skeleton.joint_count = 2;
+    swivel_look_def look = swivel::look({0, 1});
+    look.rate = 1;  // radians a second
+    return swivel::Crowd(skeleton, kBodies, {look});
 }
 
-// Everyone glides, stands with the foot now and then, and looks ahead. From kTurn on, if that is known, to the side.
-Frame inputs(int frame, bool is_known)
+// All bodies look at a thing that passes by. In frame kChange it rises, which the client does not know at first.
+Float3 input(int frame, bool is_known)
 {
-    Frame made(kBodies);
-    for (std::uint32_t n = 0; n < kBodies; ++n) {
-        const float x = static_cast<float>(n), z = 0.01f * static_cast<float>(frame);
-        const bool turns = is_known && frame >= kTurn && n % 3 == 0;
-        made[n] = {{x, 0, z}, {turns ? x + 5 : x, 1.5f, turns ? z : z + 5}, (frame + 7 * n) % 60 < 40 ? 1.0f : 0.0f};
-    }
-    return made;
+    const bool is_up = is_known && frame >= kChange;
+    return {0.2f * static_cast<float>(frame % 40 - 20), is_up ? 5.0f : 1.5f, 4};
 }
 
-Poses play(swivel::Crowd& crowd, const Frame& frame)
+using Poses = std::vector<std::array<Float4, 2>>;  // rotations of two joints
+
+Poses play(swivel::Crowd& crowd, const Float3& target)
 {
-    Poses poses(kBodies);  // a game's animation writes them
-    for (auto& body : poses) body.fill({0, 0, 0, 1});
-    const float time = 1.0f / 60;
+    Poses poses(kBodies, {{{0, 0, 0, 1}, {0, 0, 0, 1}}});  // your animation writes them
     swivel_pose pose = swivel_default_pose();
-    pose.rotations = {poses.data(), sizeof poses[0], sizeof poses[0][0], nullptr};
-    pose.root_position = swivel::stream(frame, &Input::root);
+    pose.rotations = {poses.data(), sizeof poses[0], sizeof(Float4), nullptr};
+    const float time = 1.0f / 60;  // a tick's length, not a clock's
     pose.time = {&time, 0};
-    swivel::Streams legs, looks;
-    legs.in(SWIVEL_CONTACT, swivel::stream(frame, &Input::contact));
-    looks.in(SWIVEL_LOOK_TARGET, swivel::stream(frame, &Input::target));
-    crowd.solve({.streams = {legs, looks}, .pose = &pose});
+    swivel::Streams looks;
+    looks.in(SWIVEL_LOOK_TARGET, {&target, 0});  // one value for all
+    crowd.solve({.streams = {looks}, .pose = &pose});
     return poses;
 }
 
-const char* text(bool are_equal) { return are_equal ? "the server's bits" : "other bits"; }
-
-}  // namespace
-
 int main()
 {
-    swivel::Crowd server = make_crowd(), client = make_crowd(), visitor = make_crowd();
-    const std::size_t body_bytes = swivel_state_bytes(server.get());
-    std::vector<std::vector<std::byte>> states(kLate, std::vector<std::byte>(kBodies * body_bytes));  // a ring
-    Poses truth, guess;
-    for (int frame = 0; frame < kTurn + kLate; ++frame) {
-        client.save(states[frame % kLate]);  // as it is before the frame
-        truth = play(server, inputs(frame, true));
-        guess = play(client, inputs(frame, false));
+    swivel::Crowd server = make_crowd(), client = make_crowd();
+    std::vector<std::byte> states[kLate];  // a ring: the client's, before each of the last frames
+    for (auto& each : states) each.resize(kBodies * swivel_state_bytes(client.get()));
+    Poses served, seen;  // of the last frame
+    for (int frame = 0; frame < kChange + kLate; ++frame) {
+        client.save(states[frame % kLate]);
+        served = play(server, input(frame, true));
+        seen = play(client, input(frame, false));
     }
-    std::printf("guessed: %s\n", text(guess == truth));
+    const auto compare = [&](const char* name) {
+        const bool is_equal = seen == served && client.state_digest() == server.state_digest();
+        std::printf("%s: %s\n", name, is_equal ? "the server's bits" : "other bits");
+    };
+    compare("guessed");
     // [rollback]
-    client.load(states[kTurn % kLate]);
-    for (int frame = kTurn; frame < kTurn + kLate; ++frame) guess = play(client, inputs(frame, true));
+    client.load(states[kChange % kLate]);
+    for (int frame = kChange; frame < kChange + kLate; ++frame) {
+        client.save(states[frame % kLate]);  // until now this was the state that followed a guess
+        seen = play(client, input(frame, true));
+    }
     // [end]
-    std::printf("rolled back: %s\n", text(guess == truth && client.state_digest() == server.state_digest()));
-    server.save(states[0]);
-    visitor.load(states[0]);
-    const Frame next = inputs(kTurn + kLate, true);
-    std::printf("a late visitor: %s, by %zu bytes a body\n", text(play(visitor, next) == play(server, next)),
-                body_bytes);
+    compare("rolled back");
 }

@@ -21,19 +21,19 @@ struct TurnedChain {
 
     TurnedChain(const SolvedBody& of, const swivel_look_def& with) : body(of), look(with)
     {
-        const std::int32_t above = body.of.skeleton.parents[look.joints[0]];
+        const std::int32_t above = body.bodies.skeleton.parents[look.joints[0]];
         for (std::uint32_t n = 0; n < look.joint_count; ++n) {
-            before.push_back(body.was[look.joints[n]]);
+            before.push_back(body.came[look.joints[n]]);
             if (above < 0) continue;
-            const JointAt &from = body.was[static_cast<std::size_t>(above)],
-                          &to = body.is[static_cast<std::size_t>(above)];
+            const JointAt &from = body.came[static_cast<std::size_t>(above)],
+                          &to = body.solved[static_cast<std::size_t>(above)];
             const Quaterniond turn = to.rotation * from.rotation.conjugate();
             before[n] = {turn * before[n].rotation, to.place + turn * (before[n].place - from.place), before[n].scale};
         }
     }
     std::uint32_t last() const { return look.joint_count - 1; }
     const JointAt& was(std::uint32_t n) const { return before[n]; }
-    const JointAt& is(std::uint32_t n) const { return body.is[look.joints[n]]; }
+    const JointAt& is(std::uint32_t n) const { return body.solved[look.joints[n]]; }
     // By which a joint of the chain and all below it have turned, in the world.
     Quaterniond turn(std::uint32_t n) const { return is(n).rotation * was(n).rotation.conjugate(); }
     // By which a joint itself has turned, in the world.

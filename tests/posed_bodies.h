@@ -275,64 +275,65 @@ struct SolvedBodies {
 
 // One body: where its joints are, by forward kinematics of Eigen's.
 struct SolvedBody {
-    const PosedBodies& of;
+    const PosedBodies& bodies;
     std::size_t n;
-    Body was_body;
-    std::vector<JointAt> was, is;
+    Body incoming;
+    std::vector<JointAt> came, solved;
     std::vector<double> stretch;  // of each group
 
-    SolvedBody(const SolvedBodies& solved, std::size_t body)
-        : of(solved.of),
+    SolvedBody(const SolvedBodies& all, std::size_t body)
+        : bodies(all.of),
           n(body),
-          was_body(of.bodies[n]),
-          was(joints_at(of.skeleton, was_body)),
-          is(joints_at(of.skeleton, solved.poses.read(n, was_body)))
+          incoming(bodies.bodies[n]),
+          came(joints_at(bodies.skeleton, incoming)),
+          solved(joints_at(bodies.skeleton, all.poses.read(n, incoming)))
     {
-        for (std::uint32_t g = 0; g < of.groups.size(); ++g)
-            stretch.push_back(of.has(g, SWIVEL_WITH_REACH) ? double{solved.result<float>(SWIVEL_STRETCH, g, body)} : 1);
+        for (std::uint32_t g = 0; g < bodies.groups.size(); ++g)
+            stretch.push_back(bodies.has(g, SWIVEL_WITH_REACH) ? double{all.result<float>(SWIVEL_STRETCH, g, body)}
+                                                               : 1);
     }
-    const BodyLimbJoints& joints(std::uint32_t group) const { return of.skeleton.limbs[of.limb_of[group]]; }
-    Vector3d root() const { return vec(was_body.root_position); }
+    const BodyLimbJoints& joints(std::uint32_t group) const { return bodies.skeleton.limbs[bodies.limb_of[group]]; }
+    Vector3d root() const { return vec(incoming.root_position); }
     // The limb as it came, and how far an untouched goal has left it from there, as a share of what is allowed.
-    LimbAt limb(std::uint32_t group) const { return LimbAt(of.skeleton, was_body, was, joints(group)); }
-    double strayed(std::uint32_t group) const { return test::strayed(limb(group), joints(group), was, is); }
+    LimbAt limb(std::uint32_t group) const { return LimbAt(bodies.skeleton, incoming, came, joints(group)); }
+    double strayed(std::uint32_t group) const { return test::strayed(limb(group), joints(group), came, solved); }
     // By which a joint has turned, in the world.
-    Quaterniond turn(std::uint32_t joint) const { return is[joint].rotation * was[joint].rotation.conjugate(); }
+    Quaterniond turn(std::uint32_t joint) const { return solved[joint].rotation * came[joint].rotation.conjugate(); }
     // The scale of the bones' unit.
     double scale(std::uint32_t group) const
     {
-        const std::int32_t parent = of.skeleton.parents[joints(group).shoulder];
-        return parent < 0 ? double{was_body.root_scale} : was[static_cast<std::size_t>(parent)].scale;
+        const std::int32_t parent = bodies.skeleton.parents[joints(group).shoulder];
+        return parent < 0 ? double{incoming.root_scale} : came[static_cast<std::size_t>(parent)].scale;
     }
     Held hand(std::uint32_t group) const
     {
-        const JointAt &wrist = is[joints(group).wrist], &shoulder = is[joints(group).shoulder];
+        const JointAt &wrist = solved[joints(group).wrist], &shoulder = solved[joints(group).shoulder];
         return {wrist.rotation, shoulder.place + stretch[group] * (wrist.place - shoulder.place)};
     }
     // The hand with its effector as its place.
     Held point(std::uint32_t group, const Held& hand) const
     {
-        const Float3 effector = of.value(group, SWIVEL_EFFECTOR, n, Float3{});
+        const Float3 effector = bodies.value(group, SWIVEL_EFFECTOR, n, Float3{});
         return {hand.rotation, hand.place + scale(group) * (hand.rotation * vec(effector))};
     }
     Held point(std::uint32_t group) const { return point(group, hand(group)); }
-    Held grip(std::uint32_t group) const { return held(of.value(group, SWIVEL_GRIP, n, Float7{})); }
+    Held grip(std::uint32_t group) const { return held(bodies.value(group, SWIVEL_GRIP, n, Float7{})); }
     // Where a limb's point belongs on what it holds, as that is.
     Held wanted(std::uint32_t group, const Held& on) const
     {
-        const std::uint32_t link = of.limb_def(group).link;
+        const std::uint32_t link = bodies.limb_def(group).link;
         Held in = grip(group);
-        if (!of.is_prop(link)) in.place *= scale(link);
+        if (!bodies.is_prop(link)) in.place *= scale(link);
         return on * in;
     }
     double length(std::uint32_t group) const { return limb(group).length(); }
     // How far floats may be off, as they know where the hand is from the root.
     double rounding(std::uint32_t group) const
     {
-        const std::uint32_t link = of.limb_def(group).link;
-        const double grip_scale = !of.has(group, SWIVEL_WITH_LINK) || of.is_prop(link) ? 1 : scale(link);
-        return (of.is_in_body ? 8e-7 : 3e-7) *
-               (way_to(of.skeleton, was, joints(group).wrist) + grip_scale * grip(group).place.norm());
+        const std::uint32_t link = bodies.limb_def(group).link;
+        const double grip_scale = !bodies.has(group, SWIVEL_WITH_LINK) || bodies.is_prop(link) ? 1 : scale(link);
+        return (bodies.is_in_body ? 8e-7 : 3e-7) *
+               (way_to(bodies.skeleton, came, joints(group).wrist) + grip_scale * grip(group).place.norm());
     }
     double bound(std::uint32_t group) const { return 2e-6 * length(group) + rounding(group); }
 };

@@ -71,7 +71,7 @@ struct PropBodies : PosedBodies {
         const bool has_place = !std::isnan(place[0]), has_turn = !std::isnan(turn[0]);
         const Quaterniond rotation = has_turn ? quat(turn).normalized() : Quaterniond::Identity();
         if (const std::int32_t joint = prop_def().joint; joint >= 0) {
-            const JointAt& at = body.was[static_cast<std::size_t>(joint)];
+            const JointAt& at = body.came[static_cast<std::size_t>(joint)];
             is.frame = Held{at.rotation, at.place} * Held{rotation, has_place ? vec(place) : Vector3d(0, 0, 0)};
         } else {
             if (has_place) is.frame.place = vec(place) - root;
@@ -86,7 +86,7 @@ struct PropBodies : PosedBodies {
             is.moves.push_back(moves(body, arms[n], is.frame));
             is.nearest.push_back(nearest(body, arms[n]));
         }
-        is.max = double{prop_def().max_move} * rest_length(limb_of[arms[0]]) * body.was_body.root_scale;
+        is.max = double{prop_def().max_move} * rest_length(limb_of[arms[0]]) * body.incoming.root_scale;
         return is;
     }
     // The same limbs with the same goals, that hold nothing.
@@ -185,7 +185,7 @@ private:
     }
     void add_animated(const SolvedBody& body, std::uint32_t arm, const Vector3d& root, UnmovedProp& is) const
     {
-        const JointAt& wrist = body.was[body.joints(arm).wrist];
+        const JointAt& wrist = body.came[body.joints(arm).wrist];
         Held point = body.point(arm, {wrist.rotation, wrist.place});
         const Float3 target = value(arm, SWIVEL_TARGET, body.n, kNoPlace);
         const Float4 hand = value(arm, SWIVEL_HAND, body.n, kNoTurn);
@@ -217,8 +217,8 @@ private:
     Ball moves(const SolvedBody& body, std::uint32_t arm, const Held& frame) const
     {
         const LimbAt limb = body.limb(arm);
-        const Vector3d shoulder = body.was[body.joints(arm).shoulder].place,
-                       wrist = body.was[body.joints(arm).wrist].place;
+        const Vector3d shoulder = body.came[body.joints(arm).shoulder].place,
+                       wrist = body.came[body.joints(arm).wrist].place;
         const BodyInput* const limit = find(arm, SWIVEL_FLEXION_LIMIT);
         double far = limit ? reach(limb, limit->of<Float2>(body.n)[0]) : limb.length();  // of the least flexion
         if (const BodyInput* const cap = find(arm, SWIVEL_CAP))  // which eases from where the incoming limb is

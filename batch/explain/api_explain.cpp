@@ -17,11 +17,11 @@ using namespace swivel;
 
 namespace {
 
-swivel_status take_place(const double* from, const char* name, Vector<double>& to)
+swivel_status take_place(const double* from, const char* name, Vector<double>& place)
 {
     if (!from) return refuse("swivel_compare: %s is null", name);
-    std::memcpy(to.c, from, sizeof to.c);
-    if (len2(to) <= kHuge2) return SWIVEL_OK;
+    std::memcpy(place.c, from, sizeof place.c);
+    if (len2(place) <= kHuge2) return SWIVEL_OK;
     return refuse("swivel_compare: %s is not finite or further than 1e15 from the origin", name);
 }
 
@@ -51,12 +51,12 @@ swivel_status swivel_explain(const swivel_crowd* crowd, uint32_t group, uint32_t
         if (const swivel_status status = check_kept(*crowd, group, "swivel_explain"); status != SWIVEL_OK)
             return status;
     if (!text || size == 0) return refuse("swivel_explain: text is null or of no size");
-    Text to({text, size});
-    if (doubt_solve(*crowd, to)) to.add("%s", is_body ? "\n" : " ");
+    Text explanation({text, size});
+    if (doubt_solve(*crowd, explanation)) explanation.add("%s", is_body ? "\n" : " ");
     if (is_body)
-        explain_body(*crowd, limb, to);
+        explain_body(*crowd, limb, explanation);
     else
-        explain(*crowd, group, limb, to);
+        explain(*crowd, group, limb, explanation);
     return SWIVEL_OK;
 }
 
@@ -73,10 +73,10 @@ swivel_status swivel_compare(const swivel_crowd* crowd, uint32_t group, uint32_t
     if (!pose) return refuse("swivel_compare: pose is null");
     if (const swivel_status status = check_pose(*crowd, pose); status != SWIVEL_OK) return status;
     LimbPlaces places{};
-    for (const auto& [from, name, to] : {std::tuple{shoulder, "shoulder", &places.at[0]},
-                                         {elbow, "elbow", &places.at[1]},
-                                         {wrist, "wrist", &places.at[2]}})
-        if (const swivel_status status = take_place(from, name, *to); status != SWIVEL_OK) return status;
+    for (const auto& [from, name, place] : {std::tuple{shoulder, "shoulder", &places.at[0]},
+                                            {elbow, "elbow", &places.at[1]},
+                                            {wrist, "wrist", &places.at[2]}})
+        if (const swivel_status status = take_place(from, name, *place); status != SWIVEL_OK) return status;
     if (!text || size == 0) return refuse("swivel_compare: text is null or of no size");
     const bool agree = compare(*crowd, group, body, full_pose(pose), places, {text, size});
     if (agrees) *agrees = agree;
@@ -99,9 +99,9 @@ swivel_status swivel_draw(const swivel_crowd* crowd, uint32_t group, uint32_t li
         if (const swivel_status status = check_pose(*crowd, pose); status != SWIVEL_OK) return status;
     if (!shape_count) return refuse("swivel_draw: shape_count is null");
     if (!shapes && capacity > 0) return refuse("swivel_draw: shapes is null");
-    Drawing to{shapes, capacity};
+    Drawing drawing{shapes, capacity};
     const swivel_pose full = full_pose(pose);
-    draw(*crowd, group, limb, has_bodies ? &full : nullptr, to);
-    *shape_count = to.count;
+    draw(*crowd, group, limb, has_bodies ? &full : nullptr, drawing);
+    *shape_count = drawing.count;
     return SWIVEL_OK;
 }

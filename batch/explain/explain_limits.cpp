@@ -38,11 +38,10 @@ void explain_pole(Probe& probe, Text& text)
         degrees);
 }
 
-// The elbow's turn from one pose to another about the line to the wrist, in degrees.
-double swivel_between(const LimbPose& a, const LimbPose& b)
+// The elbow's turn from one pose to another about the unit axis that it swivels about, in degrees.
+double swivel_between(const LimbPose& a, const LimbPose& b, const Vector<double>& axis)
 {
-    const Vector<double> n = cross(a.wrist - a.shoulder, a.elbow - a.shoulder),
-                         m = cross(b.wrist - b.shoulder, b.elbow - b.shoulder);
+    const Vector<double> n = cross(axis, a.elbow - a.shoulder), m = cross(axis, b.elbow - b.shoulder);
     return in_degrees(std::atan2(std::sqrt(len2(cross(n, m))), scalar_product(n, m)));
 }
 
@@ -119,12 +118,11 @@ void explain_place(Probe& probe, std::uint32_t flags, const Broken& broken, Text
     }
     const LimbPose solved = probe.pose();
     probe.take();
-    for_each_limit([&](const FlagRow& row) { probe.give_up(row); });
-    if (step_wins) probe.give_up(SWIVEL_MAX_SWIVEL);
+    probe.give_up_limits();
     probe.solve();
     text.add(" Where %s it breaks %s: the nearest place that keeps all limits is %.1f degrees away.",
              is_step ? "the step takes the elbow," : "the elbow was wished", broken.room[0],
-             swivel_between(solved, probe.pose()));
+             swivel_between(solved, probe.pose(), probe.swivel_axis()));
 }
 
 }  // namespace

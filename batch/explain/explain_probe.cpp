@@ -31,6 +31,25 @@ std::uint32_t Probe::solve()
     return flags();
 }
 
+Vector<double> Probe::swivel_axis() const
+{
+    const ArmFrame frame = arm_frame(group(), 0);
+    if (has(SWIVEL_WITH_AIM)) {
+        const Vector<double> way = vector_of({group(), 0, SWIVEL_TARGET}) - frame.shoulder;
+        if (len2(way) >= kTiny2 * frame.scale * frame.scale) return normalise(way);
+        return sandwich(frame.rotation, vector(0.0, 0.0, 1.0));  // as the solver has it (core/wrist_goal.h)
+    }
+    // The wrist from the shoulder in the upper arm's frame, by the flexion alone. Where equal bones fold up, the wrist
+    // is on the shoulder, and the difference of the two would be noise.
+    const ArmRotors arm = arm_rotors(group(), 0);
+    const double cos_half = std::fabs(arm.elbow.at<kScalar>()), sin_half = std::fabs(arm.elbow.at<kI>());
+    const LimbValue lengths(group(), 0, SWIVEL_LENGTHS);
+    const double upper = lengths[0], fore = lengths[1];
+    Vector<double> way = vector(0.0, 2 * fore * cos_half * sin_half, upper - fore + 2 * fore * cos_half * cos_half);
+    if (len2(way) == 0) way = vector(0.0, sin_half, cos_half);  // where it goes as equal bones fold up
+    return normalise(sandwich(frame.rotation * arm.shoulder, way));
+}
+
 double Probe::violation(const FlagRow& limit) const
 {
     const auto of_region = [&] { return source_.region ? outside_region(arm_rotors(group(), 0), *source_.region) : 0; };
@@ -90,6 +109,12 @@ void Probe::give_up(const FlagRow& limit)
         one_.set_region(&kEverywhere);
     else
         give_up(limit.limit);
+}
+
+void Probe::give_up_limits()
+{
+    for_each_limit([&](const FlagRow& row) { give_up(row); });
+    if (has(SWIVEL_STEP_WINS)) give_up(SWIVEL_MAX_SWIVEL);  // other steps come before limits
 }
 
 void Probe::give_up_all_but(swivel_field kept)

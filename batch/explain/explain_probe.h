@@ -31,6 +31,9 @@ public:
     std::uint32_t solve();
 
     LimbPose pose() const { return forward(group(), 0); }
+    // The direction of the line that the solved limb swivels about, which goes from its shoulder to its wrist, or with
+    // an aim to its target. It is the solver's also where these are on the shoulder. Of unit length.
+    Vector<double> swivel_axis() const;
     std::uint32_t flags() const { return flags_of(group(), 0); }
     double missed() const { return distance_missed(group(), 0); }
     double missed_share() const { return residual(group(), 0); }
@@ -57,6 +60,8 @@ public:
     // Replaces the field, or a limit's input, by a neutral value.
     void give_up(swivel_field field);
     void give_up(const FlagRow& limit);
+    // All limits of the swivel, and a step that wins over them. The limb then takes the swivel that arcs count from.
+    void give_up_limits();
     void give_up_all_but(swivel_field kept);
 
 private:

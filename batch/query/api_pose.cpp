@@ -9,11 +9,10 @@
 
 #include "batch/api/check.h"
 #include "batch/api/use.h"
+#include "batch/query/allowed_arcs.h"
 #include "batch/query/forward.h"
 #include "batch/query/one_limb.h"
 #include "batch/refusal/status.h"
-#include "batch/solve/solve.h"
-#include "simd/dispatch.h"
 #include "simd/float_env.h"
 #include "simd/rows.h"
 
@@ -29,18 +28,6 @@ void store(const swivel_out& out, std::size_t n, const Rotor<double>& q)
 {
     const double xyzw[4] = {q.at<kI>(), q.at<kJ>(), q.at<kK>(), q.at<kScalar>()};
     if (out.data) std::memcpy(static_cast<char*>(out.data) + n * out.stride, xyzw, sizeof xyzw);
-}
-
-// Stores at most capacity arcs of a free limb, which is counted within its group. Returns how many there are.
-std::uint32_t allowed_arcs(const Group& group, std::uint32_t limb, swivel_arc* arcs, std::uint32_t capacity)
-{
-    alignas(64) float strip[kStripBlockFloats];
-    const SolveRun run = run_of(group, {0, group.block_count}, {strip, 1}, false, nullptr);
-    ArcEnds ends[kMaxArcs];
-    const std::uint32_t count = single_limb_kernels().limbs.allowed_arcs(run, limb, ends);
-    for (std::uint32_t n = 0; n < std::min(count, capacity); ++n)
-        arcs[n] = {{ends[n].from[0], ends[n].from[1]}, {ends[n].to[0], ends[n].to[1]}};
-    return count;
 }
 
 // Calls take(group, limb, n) for the nth limb from `first` on. A body's limb comes as a free one.
@@ -70,9 +57,10 @@ swivel_status swivel_allowed_arcs(const swivel_crowd* crowd, uint32_t group, uin
     if (status != SWIVEL_OK) return status;
     if (!arc_count) return refuse("swivel_allowed_arcs: arc_count is null");
     if (!arcs && capacity > 0) return refuse("swivel_allowed_arcs: arcs is null");
-    for_each_free_limb(crowd->groups[group], limb, 1, [&](const Group& free_limbs, std::uint32_t at, std::uint32_t) {
-        *arc_count = allowed_arcs(free_limbs, at, arcs, capacity);
-    });
+    ArcEnds ends[kMaxArcs];
+    *arc_count = allowed_arcs(crowd->groups[group], limb, ends);
+    for (std::uint32_t n = 0; n < std::min(*arc_count, capacity); ++n)
+        arcs[n] = {{ends[n].from[0], ends[n].from[1]}, {ends[n].to[0], ends[n].to[1]}};
     return SWIVEL_OK;
 }
 

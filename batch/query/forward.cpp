@@ -44,7 +44,7 @@ Vector<double> aim_axis(const Group& group, std::size_t limb, const Rotor<double
                     Reader{group, limb}.vector_of(SWIVEL_AIM));
 }
 
-ArmFrame arm_frame(const Group& group, std::size_t limb)
+ArmFrame arm_frame(const Group& group, std::size_t limb, bool with_clavicle)
 {
     const Reader read{group, limb};
     const bool world = group.features & SWIVEL_WORLD, joints = group.features & SWIVEL_JOINTS;
@@ -53,7 +53,7 @@ ArmFrame arm_frame(const Group& group, std::size_t limb)
     Vector<double> shoulder = world ? read.vector_of(SWIVEL_SHOULDER_POSITION) : vector(0.0, 0.0, 0.0);
     Rotor<double> parent = world ? read.rotor_of(SWIVEL_PARENT_ROTATION) : one;
     const double scale = world ? read(SWIVEL_PARENT_SCALE, 0) : 1.0;
-    if (group.features & SWIVEL_WITH_CLAVICLE) {
+    if (with_clavicle && group.features & SWIVEL_WITH_CLAVICLE) {
         const Vector<double> bone = read.vector_of(SWIVEL_CLAVICLE);
         const Rotor<double> turn = read.rotor_of(SWIVEL_CLAVICLE_ROTATION);
         shoulder = shoulder + scale * sandwich(parent, sandwich(turn, bone) - bone);

@@ -21,13 +21,14 @@ struct LimbPose {
 
 LimbPose forward(const Group& group, std::size_t limb);
 
-// The arm frame in the space of the targets, as the clavicle has it, and the scale of the bones' unit there.
+// The arm frame in the space of the targets, as the clavicle has it or without the clavicle's turn, and the scale of
+// the bones' unit there.
 struct ArmFrame {
     Vector<double> shoulder;
     Rotor<double> rotation;
     double scale;
 };
-ArmFrame arm_frame(const Group& group, std::size_t limb);
+ArmFrame arm_frame(const Group& group, std::size_t limb, bool with_clavicle = true);
 // The direction of an aiming hand's ray, likewise; of any length. hand: as solved.
 Vector<double> aim_axis(const Group& group, std::size_t limb, const Rotor<double>& hand);
 

@@ -28,18 +28,21 @@ Rotor<double> hand_from_arm(const Group& group)
     return normalise(~rotor_of(group.binding.wrist_parent_from_arm) * rotor_of(group.binding.wrist_rest));
 }
 
+Rotor<double> incoming_arm_rotation(const Group& group, std::uint32_t limb)
+{
+    const Rotor<double> arm = rotor_of(LimbValue(group, limb, SWIVEL_RECORD), kRecordArm);
+    if (!(group.features & SWIVEL_WITH_CLAVICLE)) return arm;
+    const Rotor<double> parent_from_arm = rotor_of(group.binding.parent_from_arm);
+    const Rotor<double> turn = rotor_of(LimbValue(group, limb, SWIVEL_CLAVICLE_ROTATION));
+    return arm * ~parent_from_arm * ~turn * parent_from_arm;
+}
+
 Rotor<double> incoming_hand(const Group& group, std::uint32_t limb)
 {
     const LimbValue record(group, limb, SWIVEL_RECORD);
-    Rotor<double> arm = rotor_of(record, kRecordArm);
-    if (group.features & SWIVEL_WITH_CLAVICLE) {  // the record has the arm as the clavicle turned it
-        const Rotor<double> parent_from_arm = rotor_of(group.binding.parent_from_arm);
-        const Rotor<double> turn = rotor_of(LimbValue(group, limb, SWIVEL_CLAVICLE_ROTATION));
-        arm = arm * ~parent_from_arm * ~turn * parent_from_arm;
-    }
     const Rotor<double> hand = rotor_of(record, kRecordIncoming) * rotor_of(record, kRecordIncoming + 4) *
                                rotor_of(record, kRecordIncoming + 8);
-    return normalise(arm * hand * hand_from_arm(group));
+    return normalise(incoming_arm_rotation(group, limb) * hand * hand_from_arm(group));
 }
 
 Rotor<double> wanted_hand(const Group& group, std::uint32_t limb)

@@ -12,7 +12,10 @@ namespace swivel {
 
 // The hand joint's own frame while the arm lies at rest in the arm frame; the identity for free limbs.
 Rotor<double> hand_from_arm(const Group& group);
-// How the hand of a body's limb came, in the world, by its record. The limb has no aim.
+// How the arm frame of a body's limb was turned before its clavicle turned it, in the world, by its record; of about
+// unit length.
+Rotor<double> incoming_arm_rotation(const Group& group, std::uint32_t limb);
+// How the hand of a body's limb came, likewise. The limb has no aim.
 Rotor<double> incoming_hand(const Group& group, std::uint32_t limb);
 // The hand that was written for it, of any length, or else the incoming one.
 Rotor<double> wanted_hand(const Group& group, std::uint32_t limb);

@@ -126,9 +126,9 @@ swivel_status swivel_save(const swivel_crowd* crowd, uint32_t first_body, uint32
     if (status == SWIVEL_OK) status = check_state(*crowd, first_body, body_count, bytes, size, "swivel_save");
     if (status != SWIVEL_OK) return status;
     const StateLayout layout = state_layout(*crowd);
-    unsigned char* const to = static_cast<unsigned char*>(bytes);
-    for (std::size_t n = 0; n < body_count; ++n) store_word(layout.word, to + n * layout.bytes);
-    for_each_number(*crowd, first_body, body_count, to, layout.bytes,
+    unsigned char* const states = static_cast<unsigned char*>(bytes);
+    for (std::size_t n = 0; n < body_count; ++n) store_word(layout.word, states + n * layout.bytes);
+    for_each_number(*crowd, first_body, body_count, states, layout.bytes,
                     [](const float& number, unsigned char* at) { store_word(bit_cast<std::uint32_t>(number), at); });
     return SWIVEL_OK;
 }
@@ -140,11 +140,11 @@ swivel_status swivel_load(swivel_crowd* crowd, uint32_t first_body, uint32_t bod
     if (status == SWIVEL_OK) status = check_state(*crowd, first_body, body_count, bytes, size, "swivel_load");
     if (status != SWIVEL_OK) return status;
     const StateLayout layout = state_layout(*crowd);
-    const unsigned char* const from = static_cast<const unsigned char*>(bytes);
+    const unsigned char* const states = static_cast<const unsigned char*>(bytes);
     for (std::size_t n = 0; n < body_count; ++n)
-        if (load_word(from + n * layout.bytes) != layout.word)
+        if (load_word(states + n * layout.bytes) != layout.word)
             return refuse("swivel_load: state %zu is of another kind of crowd; save it from one of the same groups", n);
-    for_each_number(*crowd, first_body, body_count, from, layout.bytes,
+    for_each_number(*crowd, first_body, body_count, states, layout.bytes,
                     [](float& number, const unsigned char* at) { number = bit_cast<float>(load_word(at)); });
     return SWIVEL_OK;
 }

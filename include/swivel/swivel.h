@@ -357,11 +357,11 @@ typedef struct swivel_limb_def {
     swivel_on_bad_input on_bad_input;
     swivel_euler_order shoulder_order, wrist_order;  // of SWIVEL_SHOULDER_BOX and SWIVEL_WRIST_BOX
     uint32_t twist_bone_count;                       // 0 to 7; more than 0 needs WITH_HAND
+    swivel_binding binding;                          // JOINTS: every limb uses it, and starts with its lengths
+    const struct swivel_region* region;              // WITH_REGION; copied. Null without the feature
     // POLE_HALF_LINE: where no wrist goes, in the frame of the shoulder's parent, else in the arm frame; of any length.
     // Zeros: where the elbow points at rest. That is behind the back for an arm; for a leg give it.
     float pole_behind[3];
-    swivel_binding binding;              // JOINTS: every limb uses it, and starts with its lengths
-    const struct swivel_region* region;  // WITH_REGION; copied. Null without the feature
 } swivel_limb_def;
 
 // Plain limbs in the arm frame.
@@ -571,28 +571,29 @@ SWIVEL_API swivel_status swivel_choose(swivel_crowd* crowd, const swivel_in* pri
                                        uint32_t max_blocks, uint32_t* mask, uint32_t mask_word_count,
                                        uint32_t* chosen_count);
 
-// Clears these limbs' carried fields, so that they start anew, such as after a teleport.
+// Clears these limbs' carried fields, so that they start anew, as after a teleport.
 SWIVEL_API swivel_status swivel_reset(swivel_crowd* crowd, uint32_t group, uint32_t first, uint32_t limb_count);
 
-// A body's state is what its next solve starts from besides inputs, which are the caller's: the carried fields of all
-// groups, and the results of free limbs with SWIVEL_KEEP_POSE. In crowds of free limbs body n is limb n of each group,
-// and groups must have one limb count. docs/howto/server.md explains rollback.
+// A body's state is what its next solve starts from besides the caller's inputs: the carried fields of all groups, and
+// the results of free limbs with SWIVEL_KEEP_POSE. Body n of free limbs is limb n of each group, so groups need equal
+// limb counts. docs/howto/server.md explains rollback.
 //
-// Bytes of one body's state; 0 for groups of unequal counts.
+// Bytes of one body's state; 0 if limb counts differ.
 SWIVEL_API size_t swivel_state_bytes(const swivel_crowd* crowd);
-// Saves the state of bodies, one after the other, in the same bytes on every CPU. size: swivel_state_bytes() a body, or
-// more, of any alignment.
+// Saves the states of bodies side by side, the same on every CPU, to bytes of any alignment. size:
+// swivel_state_bytes() a body, or more.
 SWIVEL_API swivel_status swivel_save(const swivel_crowd* crowd, uint32_t first_body, uint32_t body_count, void* bytes,
                                      size_t size);
-// Loads what swivel_save() saved of any bodies, of this crowd or of one whose groups carry the same fields. Inputs and
-// other results stay. It loads nothing if any bytes are of another kind of crowd.
+// Loads what swivel_save() saved of any bodies, of this crowd or of one whose groups carry the same fields; nothing if
+// any bytes are of another kind of crowd. Inputs and other results stay, so results that a body keeps because of bad
+// input differ from the saved crowd's until its next good solve.
 SWIVEL_API swivel_status swivel_load(swivel_crowd* crowd, uint32_t first_body, uint32_t body_count, const void* bytes,
                                      size_t size);
-// swivel_reset() of all groups of these bodies. In their next solve feet land where the animation has them, and looks
-// and shifts are at their goals at once.
+// swivel_reset() of all groups of these bodies. In their next solve feet land where animated, and looks and shifts are
+// at their goals.
 SWIVEL_API swivel_status swivel_reset_body(swivel_crowd* crowd, uint32_t first_body, uint32_t body_count);
-// A digest of the state of all bodies, or of free limbs in any groups. Unlike swivel_digest(), it is the saved crowd's
-// after swivel_load() of all bodies.
+// A digest of all bodies' state, or of free limbs in any groups. Unlike swivel_digest(), it is the saved crowd's once
+// all bodies are loaded.
 SWIVEL_API uint64_t swivel_state_digest(const swivel_crowd* crowd);
 
 // Values of fields from angles in radians. For twists and boxes, the range from min to max, no wider than 2 pi.
@@ -621,8 +622,8 @@ SWIVEL_API swivel_status swivel_forward(const swivel_crowd* crowd, uint32_t grou
 // arm lengths as scaled and stretched; NaN for bad input.
 SWIVEL_API swivel_status swivel_residuals(const swivel_crowd* crowd, uint32_t group, uint32_t first,
                                           uint32_t limb_count, swivel_out distance);
-// An arc of swivels: cosine and sine of its ends, counter-clockwise about the line from shoulder to wrist, from the
-// swivel that is wished for. The whole circle is one arc with equal ends.
+// An arc of swivels: cosine and sine of its ends, counter-clockwise about the line from shoulder to wrist, or WITH_AIM
+// to the target, from the swivel wished for. The whole circle is one arc with equal ends.
 typedef struct swivel_arc {
     float from[2], to[2];
 } swivel_arc;

@@ -189,7 +189,6 @@ template <class Value>
 struct Stream {
     Value* data;
     std::size_t stride;
-
     operator swivel_in() const { return {data, stride}; }
     operator swivel_out() const requires(!std::is_const_v<Value>) { return {data, stride}; }
 };
@@ -205,8 +204,8 @@ auto stream(Range&& values, Member member = {})
     return Stream<Value>{std::ranges::empty(values) ? nullptr : &std::invoke(member, *first), sizeof *first};
 }
 
-// A group's values in the caller's arrays, which must outlive it and stay where they are. It becomes a swivel_streams,
-// which views it until it moves or ends, with fields added later but not a later origin(). Keep it from solve to solve.
+// A group's values in the caller's arrays, which must outlive it and stay where they are. Keep it from solve to solve.
+// It becomes a swivel_streams, which views it until it moves or ends, without what is added later.
 class Streams {
 public:
     Streams& in(swivel_field field, const swivel_in& values) &
@@ -247,7 +246,7 @@ public:
     operator swivel_streams() const&
     {
         swivel_streams view = view_;
-        view.fields = fields_.data(), view.field_count = count_of(fields_);
+        view.fields = fields_.data();
         return view;
     }
     operator swivel_streams() const&& = delete;  // which would view what ends with its line
@@ -259,12 +258,11 @@ private:
         fields_[view_.field_count++] = field;
         return *this;
     }
-    std::array<swivel_stream, 64> fields_ = {};       // as many as a group has; a null one lists nothing
+    std::array<swivel_stream, 64> fields_ = {};       // as many as a group has
     swivel_streams view_ = swivel_default_streams();  // views start from it; it counts the fields added
 };
 
-// Samples the ground, and is called by several threads at a time. To copy a capture of more than two pointers may
-// allocate; std::ref(ask) does not.
+// Samples the ground, on several threads at once. A capture of more than two pointers may allocate; std::ref does not.
 using Sample = std::function<void(const swivel_probes&)>;
 // Samples for one solve. An exception waits here until the solve is over, because none may cross C.
 struct Sampling {
@@ -297,8 +295,7 @@ struct Job {
     bool on_this_thread = false;
     void* workspace = nullptr;          // memory for this call alone; null: one of the crowd's workspaces
     const swivel_pose* pose = nullptr;  // of bodies; null in a crowd of free limbs
-    // For groups WITH_GROUND. If it throws, no more feet ask, and they stand on the ground that they had. The solve
-    // goes on to its end; then solve() throws the first of its exceptions.
+    // For groups WITH_GROUND. If it throws, no more feet ask, and solve() throws the first exception at its end.
     Sample sample = {};
 };
 
@@ -316,15 +313,19 @@ public:
           const std::array<float, 3>& up = {0, 1, 0})
     {
         swivel_crowd_def def = swivel_default_crowd_def();
-        def.skeleton = &skeleton, def.body_count = body_count;
+        def.skeleton = &skeleton;
+        def.body_count = body_count;
         for (std::size_t c = 0; c < 3; ++c) def.up[c] = up[c];
         create(def, groups);
     }
     Crowd(Crowd&& other) noexcept : crowd_(std::exchange(other.crowd_, nullptr)) {}
-    Crowd& operator=(Crowd&& other) noexcept { return std::swap(crowd_, other.crowd_), *this; }
+    Crowd& operator=(Crowd&& other) noexcept
+    {
+        std::swap(crowd_, other.crowd_);
+        return *this;
+    }
     ~Crowd() { swivel_crowd_destroy(crowd_); }
     swivel_crowd* get() const { return crowd_; }
-
     void write(swivel_field field, std::uint32_t group, const FieldRange auto& values, First first = {})
     {
         check_value<std::ranges::range_value_t<decltype(values)>>(field);
@@ -354,7 +355,6 @@ public:
         check_value<std::ranges::range_value_t<decltype(values)>>(field);
         check(swivel_read(crowd_, field, group, first.value_or(0), checked(group, values, first), stream(values)));
     }
-
     // swivel_solve(): crowd.solve(), or crowd.solve({.streams = {arms}}). Returns how many limbs were solved.
     std::uint32_t solve(const Job& wanted = {})
     {
@@ -380,7 +380,8 @@ public:
         job.workspace = wanted.workspace;
         job.pose = wanted.pose;
         Sampling sampling{wanted.sample};
-        if (wanted.sample) job.sample = &Sampling::answer, job.sample_user = &sampling;
+        job.sample = wanted.sample ? &Sampling::answer : nullptr;
+        job.sample_user = &sampling;
         std::uint32_t solved = 0;
         job.solved_count = &solved;
         check(swivel_solve(crowd_, &job));
@@ -399,7 +400,6 @@ public:
                             mask.data(), count_of(mask), &chosen));
         return chosen;
     }
-
     void reset(std::uint32_t group) { check(swivel_reset(crowd_, group, 0, swivel_group_limb_count(crowd_, group))); }
     // The state of bodies: swivel_reset_body() of some, swivel_save() and swivel_load() of all.
     void reset_bodies(std::uint32_t first, std::uint32_t count) { check(swivel_reset_body(crowd_, first, count)); }
@@ -497,5 +497,4 @@ private:
 };
 
 }  // namespace swivel
-
 #endif

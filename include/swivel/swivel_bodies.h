@@ -63,7 +63,6 @@ typedef struct swivel_body_limb_def {
     float pole_behind[3];                // POLE_HALF_LINE: as swivel_limb_def's
 } swivel_body_limb_def;
 
-// A limb without features.
 static inline swivel_body_limb_def swivel_default_body_limb_def(const swivel_limb_joints* joints)
 {
     swivel_body_limb_def limb;
@@ -111,7 +110,7 @@ static inline swivel_prop_def swivel_default_prop_def(void)
     return prop;
 }
 
-enum { SWIVEL_MAX_LOOK_JOINTS = 8 };  // of a look
+enum { SWIVEL_MAX_LOOK_JOINTS = 8 };
 
 // A chain of joints of each body, such as spine, neck and head, that turns so that a line of sight in the last one
 // meets SWIVEL_LOOK_TARGET. Each joint takes its share of the turn left. The turn fades out as the target goes behind
@@ -151,7 +150,7 @@ typedef struct swivel_constant_info {
     const char* structure;  // "plant", "ground", "shift", "prop" or "look"
     const char* name;       // such as "lock_radius"
     const char* unit;       // such as "s"; empty: none
-    const char* text;       // its meaning, in a few words
+    const char* text;       // what it means
     uint32_t offset;        // bytes from the structure's start
     uint32_t count;         // of floats
     float defaults[SWIVEL_MAX_LOOK_JOINTS];

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Answers about limbs and bodies in words and lines, for tools and for binding. They link apart from the solver: the
-// target swivel::explain, or the shared library.
+// Answers about limbs and bodies in words and lines. They link apart from the solver: the target swivel::explain, or
+// the shared library.
 #pragma once
 
 #include "swivel_bodies.h"
@@ -13,10 +13,9 @@ extern "C" {
 enum { SWIVEL_EXPLANATION_BYTES = 8192 };  // enough for every text
 #define SWIVEL_EVERY_GROUP UINT32_MAX      // all groups of a body
 
-// Explains a limb's state in a sentence or two, from its present inputs: which input is bad, how far out of reach the
-// target is, which limit turned the elbow, why a point stands or slides, which unit or time looks wrong.
-// SWIVEL_EVERY_GROUP: all groups of body `limb`, a line each. Body groups need WITH_RECORD. text gets at most size
-// bytes, its 0 among them.
+// Explains a limb's state from its present inputs: which input is bad, how far out of reach the target is, which limit
+// turned the elbow, why a point stands or slides, which unit or time looks wrong. SWIVEL_EVERY_GROUP: all groups of
+// body `limb`, a line each. Body groups need WITH_RECORD. text gets at most size bytes, its 0 among them.
 SWIVEL_API swivel_status swivel_explain(const swivel_crowd* crowd, uint32_t group, uint32_t limb, char* text,
                                         size_t size);
 
@@ -30,14 +29,14 @@ SWIVEL_API swivel_status swivel_compare(const swivel_crowd* crowd, uint32_t grou
 // Shapes of swivel_draw(), with their colours.
 typedef enum swivel_shape_kind {
     SWIVEL_SHAPE_BONE,       // white: as solved, between joints that limbs and looks need, and from the root
-    SWIVEL_SHAPE_INCOMING,   // grey: bones as they came
-    SWIVEL_SHAPE_BEND,       // salmon: from the elbow as it came to where flexion carries the forearm
+    SWIVEL_SHAPE_INCOMING,   // grey: bones as they came; by a record, after looks
+    SWIVEL_SHAPE_BEND,       // salmon: from the elbow as it came, after looks, to where flexion carries the forearm
     SWIVEL_SHAPE_AXIS_X,     // red; these three: how a root, wanted hand or prop is turned
     SWIVEL_SHAPE_AXIS_Y,     // green
     SWIVEL_SHAPE_AXIS_Z,     // blue
     SWIVEL_SHAPE_TARGET,     // yellow: as written for a limb, look or prop
     SWIVEL_SHAPE_GOAL,       // orange: where a plant or grip sends its limb
-    SWIVEL_SHAPE_MISS,       // red: from the wrist or effector to where it should be; of length 0 where it reached
+    SWIVEL_SHAPE_MISS,       // red: from the wrist or effector to where it should be
     SWIVEL_SHAPE_EFFECTOR,   // light grey: from the wrist
     SWIVEL_SHAPE_POLE,       // magenta: from the elbow to its pole or along it; from the shoulder along pole_behind
     SWIVEL_SHAPE_NORMAL,     // violet: the wished normal of the swivel plane
@@ -57,18 +56,21 @@ typedef enum swivel_shape_kind {
 
 // A line, or a point, whose ends are equal.
 typedef struct swivel_shape {
-    double from[3], to[3];  // in the space of the targets, without the pose's origin: the world or the arm frame
-    const char* name;       // of its kind, such as "bone"; a constant
+    // Bodies: in the world. Free limbs: in the space of their rows, from their origin; without WORLD in the arm frame.
+    double from[3], to[3];
+    const char* name;  // of its kind, such as "bone"; a constant
     swivel_shape_kind kind;
     uint32_t color;  // 0xRRGGBBAA
     uint32_t group;  // SWIVEL_EVERY_GROUP: of the body itself
 } swivel_shape;
 
-// Lines and points for a debug renderer: of a free limb, or of a body with one of its groups or SWIVEL_EVERY_GROUP.
-// Arcs are lines of at most 10 degrees. Shapes that are not finite are left out.
+// Draws a free limb, or a body with one of its groups or SWIVEL_EVERY_GROUP, as lines and points for a debug renderer.
+// Arcs are lines of at most 10 degrees. Shapes that are not finite are left out. It allocates nothing, and threads may
+// draw one crowd together.
 //
-// pose: of a body, the last solve's, with the root as it went in. Bones as they came need results apart from rotations,
-// or WITH_RECORD, which misses, poles and limits of bodies also need.
+// pose: of a body, the last solve's, which took all its groups, with the root as it went in. After swivel_load() solve
+// first: all but what is carried is from before. Bones as they came need results apart from rotations, or WITH_RECORD,
+// which misses, poles and limits of bodies also need.
 // shapes: gets at most capacity of the *shape_count shapes, in a fixed order; null with capacity 0 asks for the count.
 SWIVEL_API swivel_status swivel_draw(const swivel_crowd* crowd, uint32_t group, uint32_t limb, const swivel_pose* pose,
                                      swivel_shape* shapes, uint32_t capacity, uint32_t* shape_count);

@@ -9,8 +9,7 @@
 #ifdef SWIVEL_NAMESPACE  // C++20; swivel.hpp refuses older C++
 namespace SWIVEL_NAMESPACE {
 
-// Where the upper arms of a group may point. It starts empty, and allows nothing. A group WITH_REGION takes get(),
-// which must live until the crowd is made: arms.region = &region.get().
+// Where upper arms may point, at first nowhere. It must live until the crowd is made: arms.region = &region.get().
 class Region {
 public:
     Region& add_cones(std::span<const swivel_region_cone> cones, bool closed = false)
@@ -47,7 +46,8 @@ private:
     template <class Call, class... Arguments>
     Region& changed_by(Call call, Arguments... arguments)
     {
-        return check(call(&region_, arguments...)), *this;
+        check(call(&region_, arguments...));
+        return *this;
     }
     swivel_region region_ = swivel_default_region();
 };

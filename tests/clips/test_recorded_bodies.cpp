@@ -300,7 +300,8 @@ struct PlantedLegs {
             const Vector3d root = body.root() + shifts.back() * Vector3d::UnitY();
             legs.add(root, [&](std::size_t joint, std::size_t side) {
                 const BodyLimbJoints& of = clip.skeleton.limbs[side];
-                return Vector3d(root + body.is[std::array{of.shoulder, of.elbow, of.wrist, toes[side]}[joint]].place);
+                return Vector3d(root +
+                                body.solved[std::array{of.shoulder, of.elbow, of.wrist, toes[side]}[joint]].place);
             });
         }
     }

@@ -109,7 +109,7 @@ struct UnwrittenHands : PosedBodies {
         const Vector3d up = quat(bodies[n].root_rotation).normalized() * Vector3d::UnitY(),
                        shifted = double{solved.result<Float3>(SWIVEL_SHIFT, shift, n)[0]} * up;
         for (const std::uint32_t g : {reaches, fits, stands}) {
-            const JointAt& came = body.was[body.joints(g).wrist];
+            const JointAt& came = body.came[body.joints(g).wrist];
             const std::uint32_t flags = solved.flags(g, n);
             RC_ASSERT(!(flags & SWIVEL_BAD_INPUT));
             RC_ASSERT(body.hand(g).rotation.angularDistance(came.rotation) <= 5e-6);
@@ -120,7 +120,7 @@ struct UnwrittenHands : PosedBodies {
             RC_ASSERT((body.point(g).place + shifted - wanted).norm() <=
                       1e-5 * (body.length(g) + wanted.norm() + body.root().norm()));
         }
-        const Quaterniond held = body.was[body.joints(reaches).wrist].rotation * body.grip(holds).rotation;
+        const Quaterniond held = body.came[body.joints(reaches).wrist].rotation * body.grip(holds).rotation;
         RC_ASSERT(body.hand(holds).rotation.angularDistance(held) <= 1e-5);
     }
 };
@@ -187,13 +187,13 @@ TEST_CASE("any goal in reach is met")
         Random random{seed};
         const auto goal_of = [&](const auto&... of) { return random_goal(random, of...); };
         for_each_limb(AnyBodies(random, SWIVEL_WITH_HAND, goal_of), [](const SolvedBody& body, std::uint32_t g) {
-            const JointAt &was = body.was[body.joints(g).wrist], &is = body.is[body.joints(g).wrist];
+            const JointAt &was = body.came[body.joints(g).wrist], &is = body.solved[body.joints(g).wrist];
             // In the body's space each of shoulder, elbow and wrist carries places that are floats from the root. It
             // rotates them, four roundings, and adds the shift, a difference of two places, in four more.
             const double from_root = std::max(was.place.norm(), is.place.norm()),
-                         carried = body.of.is_in_body ? 3 * 8 * 0x1p-24 * from_root : 0;
-            const Vector3d target = vec(body.of.value(g, SWIVEL_TARGET, body.n, kNoPlace)) - body.root();
-            const Float4 hand = body.of.value(g, SWIVEL_HAND, body.n, kNoTurn);
+                         carried = body.bodies.is_in_body ? 3 * 8 * 0x1p-24 * from_root : 0;
+            const Vector3d target = vec(body.bodies.value(g, SWIVEL_TARGET, body.n, kNoPlace)) - body.root();
+            const Float4 hand = body.bodies.value(g, SWIVEL_HAND, body.n, kNoTurn);
             RC_ASSERT((is.place - target).norm() <= body.limb(g).wrist_bound() + carried);
             RC_ASSERT(is.rotation.angularDistance(quat(hand).normalized()) <= 5e-6);
         });
@@ -231,8 +231,8 @@ TEST_CASE("with a pole, elbows that are bent against their hinge come back bent 
             const BodyLimbJoints& limb = body.joints(g);
             return (at[limb.wrist].place - at[limb.elbow].place).dot(at[limb.shoulder].rotation * vec(limb.bend));
         };
-        backward_count += flexed(body.was) < 0;
-        REQUIRE(flexed(body.is) > -1e-5);
+        backward_count += flexed(body.came) < 0;
+        REQUIRE(flexed(body.solved) > -1e-5);
     });
     REQUIRE(backward_count > 300);
 }

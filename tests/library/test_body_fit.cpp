@@ -109,7 +109,7 @@ TEST_CASE("a body is shifted so that all limbs reach, as near to a wish as they 
         REQUIRE(std::fabs(shift - stage.wanted(n)) <= stage.off(n));
         bool all = true;
         for (const std::uint32_t g : kLimbs) {
-            const Vector3d wrist = body.root() + shift * stage.up(n) + body.is[body.joints(g).wrist].place;
+            const Vector3d wrist = body.root() + shift * stage.up(n) + body.solved[body.joints(g).wrist].place;
             // At the very end of its reach a limb may lack the shift's rounding, and be flagged as clamped.
             const double missed = (wrist - vec(stage.value(g, SWIVEL_TARGET, n, kNoPlace))).norm();
             all &= missed <= body.limb(g).wrist_bound() + stage.off(n) / 3;

@@ -235,10 +235,10 @@ TEST_CASE("a hand on a limb that keeps its pose after bad input holds it there")
     stage.check_bad({H::free});
     const SolvedBodies solved = stage.solved();
     const SolvedBody body(solved, kBadBody);
-    const JointAt& wrist = body.was[stage.limb(H::free).wrist];
+    const JointAt& wrist = body.came[stage.limb(H::free).wrist];
     const Held told = solved.from_root(SWIVEL_HAND_TRANSFORM, H::free, kBadBody);
-    const double off = 2e-7 * vec(body.was_body.root_position).norm() + body.bound(H::free);
-    const Vector3d up = quat(body.was_body.root_rotation).normalized() * Vector3d::UnitY(),
+    const double off = 2e-7 * vec(body.incoming.root_position).norm() + body.bound(H::free);
+    const Vector3d up = quat(body.incoming.root_rotation).normalized() * Vector3d::UnitY(),
                    shifted = double{solved.result<Float3>(SWIVEL_SHIFT, H::shift, kBadBody)[0]} * up;
     CHECK((told.place - shifted - wrist.place).norm() <= off);
     CHECK(told.rotation.angularDistance(wrist.rotation) <= 2e-6);

@@ -65,9 +65,9 @@ struct FewBodies : PosedBodies {
 double bound(const SolvedBody& body, const std::vector<JointAt>& at, std::uint32_t joint)
 {
     double length = 0;
-    for (std::uint32_t g = 0; g < body.of.groups.size(); ++g)
-        length = std::max(length, LimbAt(body.of.skeleton, body.was_body, at, body.joints(g)).length());
-    return 2e-6 * length + 5e-7 * (way_to(body.of.skeleton, at, joint) + body.root().norm());
+    for (std::uint32_t g = 0; g < body.bodies.groups.size(); ++g)
+        length = std::max(length, LimbAt(body.bodies.skeleton, body.incoming, at, body.joints(g)).length());
+    return 2e-6 * length + 5e-7 * (way_to(body.bodies.skeleton, at, joint) + body.root().norm());
 }
 
 constexpr double kHalfUlp = 0x1p-24;  // u: an operation of floats rounds by at most this share of its result
@@ -118,7 +118,7 @@ TEST_CASE("twist bones of bodies")
         for (const std::uint32_t bone : one.limb.twist_bones) {
             // It turns with the forearm, and then about the forearm alone.
             const Quaterniond about = body.turn(bone) * body.turn(one.limb.elbow).conjugate();
-            const Vector3d fore = (body.is[one.limb.wrist].place - body.is[one.limb.elbow].place).normalized();
+            const Vector3d fore = (body.solved[one.limb.wrist].place - body.solved[one.limb.elbow].place).normalized();
             RC_ASSERT(about.vec().cross(fore).norm() <= kBound);
         }
     });
@@ -143,7 +143,7 @@ TEST_CASE("the clavicle of bodies")
         BodyGoal goal = one.goal(random, 0, 0);
         goal.target = floats(Vector3d(vec(one.own().target) + random.vector(0.01, 0.3)));
         const SolvedBody body = one.solved(goal);
-        const auto& [limb, was, is] = std::tie(one.limb, body.was, body.is);
+        const auto& [limb, was, is] = std::tie(one.limb, body.came, body.solved);
         const Vector3d target = vec(goal.target) - body.root(), at = was[one.clavicle()].place,
                        from = was[limb.wrist].place - at, to = target - at;
         RC_PRE(from.norm() > 0.1 && to.norm() > 0.1);
@@ -169,11 +169,11 @@ TEST_CASE("poses in the body's space")
         const SolvedBodies solved(bodies);
         for (std::size_t n = 0; n < bodies.bodies.size(); ++n) {
             const SolvedBody body(solved, n);
-            const Body &was = body.was_body, is = solved.poses.read(n, was);
+            const Body &was = body.incoming, is = solved.poses.read(n, was);
             for (std::uint32_t joint = 0; joint < bodies.skeleton.size(); ++joint) {
-                const double scale = body.is[joint].scale / is.scales[joint][0];
+                const double scale = body.solved[joint].scale / is.scales[joint][0];
                 RC_ASSERT(scale * (vec(is.translations[joint]) - vec(was.translations[joint])).norm() <=
-                          bound(body, body.is, joint));
+                          bound(body, body.solved, joint));
                 if (is_limb_joint(bodies.skeleton, joint)) continue;
                 const Quaterniond now = quat(is.rotations[joint]).normalized();
                 RC_ASSERT(now.angularDistance(quat(was.rotations[joint]).normalized()) <= 5e-6);
@@ -289,12 +289,12 @@ TEST_CASE("what a limb records of its pose")
             const auto out = [](auto& value) { return swivel_out{&value, sizeof value}; };
             check(swivel_forward(solved.crowd.get(), 0, 0, 1, out(elbow), out(wrist), out(hand)));
             check(swivel_residuals(solved.crowd.get(), 0, 0, 1, out(residual)));
-            const JointAt &elbow_at = body.is[one.limb.elbow], &wrist_at = body.is[one.limb.wrist];
+            const JointAt &elbow_at = body.solved[one.limb.elbow], &wrist_at = body.solved[one.limb.wrist];
             const Vector3d place = body.root() + wrist_at.place;
             // A pose in the body's space takes the most steps: 11 products for the limb's local rotations, 7 for the
             // arm frame and the clavicle, 29 for how four joints move, 16 vectors to the world, back and on, and as
             // much as 3 for the floats in which the test reads 11 joints. Told places are floats in the world, too.
-            const double way = way_to(one.skeleton, body.is, one.limb.wrist), turn_bound = rounding_of(66),
+            const double way = way_to(one.skeleton, body.solved, one.limb.wrist), turn_bound = rounding_of(66),
                          bound = turn_bound * way + kHalfUlp * (way + body.root().norm());
             RC_ASSERT((Vector3d(elbow.data()) - body.root() - elbow_at.place).norm() <= bound);
             RC_ASSERT((Vector3d(wrist.data()) - place).norm() <= bound);
@@ -303,10 +303,10 @@ TEST_CASE("what a limb records of its pose")
             // elbow's place counts twice, once for each bone, so its square 4 times. Along the limb there are 7: 2 for
             // the offsets, 2 for rotations between them, and 3 for the scale and the bones in the arm frame.
             const double length = body.limb(0).length(),
-                         limb_way = way - way_to(one.skeleton, body.is, one.limb.shoulder);
+                         limb_way = way - way_to(one.skeleton, body.solved, one.limb.shoulder);
             double far = 0;
             for (const std::uint32_t joint : {one.limb.shoulder, one.limb.elbow, one.limb.wrist})
-                far = std::max(far, body.was[joint].place.norm());
+                far = std::max(far, body.came[joint].place.norm());
             const double length_bound = std::hypot(rounding_of(6) * far, rounding_of(7) * limb_way),
                          missed = (place - vec(target)).norm() / length;
             RC_ASSERT(std::fabs(residual - missed) * length <= bound + length_bound * residual);

@@ -252,7 +252,7 @@ TEST_CASE("a linked hand is at its grip on the hand that the other limb reached"
         ++seeds;
         for (std::size_t n = 0; n < kLinkedBodies; ++n) {
             const SolvedBody body(solved, n);
-            const double root = 2e-7 * vec(body.was_body.root_position).norm();  // of floats in the world
+            const double root = 2e-7 * vec(body.incoming.root_position).norm();  // of floats in the world
             for (std::uint32_t g = 0; g < bodies.groups.size(); ++g) {
                 RC_ASSERT(!(solved.flags(g, n) & SWIVEL_BAD_INPUT));
                 const Held hand = body.hand(g);

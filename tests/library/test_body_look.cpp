@@ -39,11 +39,11 @@ struct LookStage {
     // there.
     double off(const SolvedBody& body, std::uint32_t joint) const
     {
-        const Vector3d place = body.was[joint].place;
+        const Vector3d place = body.came[joint].place;
         double levers = place.norm();
         for (std::int32_t at = of.skeleton.parents[joint]; at >= 0;
              at = of.skeleton.parents[static_cast<std::size_t>(at)])
-            levers += (place - body.was[static_cast<std::size_t>(at)].place).norm();
+            levers += (place - body.came[static_cast<std::size_t>(at)].place).norm();
         return 2e-7 * levers + 1e-7 * vec(of.bodies[body.n].root_position).norm();
     }
     void check_look(const SolvedBody& body, std::uint32_t group, LookCounts& counts) const
@@ -135,7 +135,7 @@ struct LookStage {
     // All that nothing turns keeps its local rotation.
     void check_others(const SolvedBody& body) const
     {
-        const Body now = solved.poses.read(body.n, body.was_body);
+        const Body now = solved.poses.read(body.n, body.incoming);
         std::vector<bool> turns(of.skeleton.size());
         for (const std::uint32_t g : of.looks) {
             const swivel_look_def& look = of.look_def(g);
@@ -151,20 +151,20 @@ struct LookStage {
             if (!turns[joint])
                 RC_ASSERT(quat(now.rotations[joint])
                               .normalized()
-                              .angularDistance(quat(body.was_body.rotations[joint]).normalized()) <=
+                              .angularDistance(quat(body.incoming.rotations[joint]).normalized()) <=
                           (of.is_in_body ? 3e-6 : 1e-6));
     }
     // The solve says where joints are, in the body's space.
     void check_told(const SolvedBody& body, LookCounts& counts) const
     {
-        const Quaterniond root = quat(body.was_body.root_rotation).normalized();
-        const double scale = body.was_body.root_scale;
+        const Quaterniond root = quat(body.incoming.root_rotation).normalized();
+        const double scale = body.incoming.root_scale;
         for (std::uint32_t joint = 0; joint < of.skeleton.size(); ++joint) {
             const std::size_t at = body.n * of.skeleton.size() + joint;
             if (solved.joint_rotations[at] == Float4{}) continue;  // no group needs it
-            RC_ASSERT((root * quat(solved.joint_rotations[at])).angularDistance(body.is[joint].rotation) <= 5e-6);
-            RC_ASSERT((scale * (root * vec(solved.joint_positions[at])) - body.is[joint].place).norm() <=
-                      3e-6 * (scale + way_to(of.skeleton, body.was, joint)));
+            RC_ASSERT((root * quat(solved.joint_rotations[at])).angularDistance(body.solved[joint].rotation) <= 5e-6);
+            RC_ASSERT((scale * (root * vec(solved.joint_positions[at])) - body.solved[joint].place).norm() <=
+                      3e-6 * (scale + way_to(of.skeleton, body.came, joint)));
             ++counts.told;
         }
     }

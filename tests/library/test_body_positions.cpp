@@ -100,22 +100,22 @@ private:
     Wanted random_wanted(Random& random, const swivel_look_def& look_def, std::size_t n) const
     {
         const std::vector<JointAt> at = joints_at(skeleton, bodies[n]);
-        Wanted to;
-        to.shift = static_cast<float>((n % 2 ? 1 : -1) * random.between(0.15, 0.4));
-        to.by = double{to.shift} * up(n);
-        to.foot = in_reach(random, n, 0, to.by);
-        to.level = to.foot - to.foot.dot(up(n)) * up(n);
-        to.hand = in_reach(random, n, 1, to.by);
-        const Vector3d shoulder = at[skeleton.limbs[1].shoulder].place + to.by;
-        to.pole = shoulder + 0.5 * random.across(to.hand - shoulder);
-        to.prop = {random.rotation(), in_reach(random, n, 2, to.by)};
-        to.left = {random.rotation(), in_reach(random, n, 2, to.by)};
-        to.right = {random.rotation(), in_reach(random, n, 3, to.by)};
+        Wanted made;
+        made.shift = static_cast<float>((n % 2 ? 1 : -1) * random.between(0.15, 0.4));
+        made.by = double{made.shift} * up(n);
+        made.foot = in_reach(random, n, 0, made.by);
+        made.level = made.foot - made.foot.dot(up(n)) * up(n);
+        made.hand = in_reach(random, n, 1, made.by);
+        const Vector3d shoulder = at[skeleton.limbs[1].shoulder].place + made.by;
+        made.pole = shoulder + 0.5 * random.across(made.hand - shoulder);
+        made.prop = {random.rotation(), in_reach(random, n, 2, made.by)};
+        made.left = {random.rotation(), in_reach(random, n, 2, made.by)};
+        made.right = {random.rotation(), in_reach(random, n, 3, made.by)};
         const JointAt& head = at.back();
         const Vector3d eye = head.place + head.rotation * (head.scale * vec(look_def.eye)),
                        axis = head.rotation * Vector3d::UnitZ();
-        to.sight = eye + to.by + axis + 0.5 * random.across(axis);
-        return to;
+        made.sight = eye + made.by + axis + 0.5 * random.across(axis);
+        return made;
     }
     void give_wanted()
     {
@@ -138,17 +138,17 @@ private:
 // What a solve tells of one body, and where its joints are by forward kinematics, from its root as it is given.
 struct ToldBody {
     using B = ShiftedBodies;
-    const B& of;
+    const B& bodies;
     const SolvedBodies& solved;
     SolvedBody body;
     std::size_t n;
     Vector3d by;  // the shift
 
-    ToldBody(const B& bodies, const SolvedBodies& all, std::size_t number, const Vector3d& shifted)
-        : of(bodies), solved(all), body(all, number), n(number), by(shifted)
+    ToldBody(const B& given, const SolvedBodies& all, std::size_t number, const Vector3d& shifted)
+        : bodies(given), solved(all), body(all, number), n(number), by(shifted)
     {
     }
-    Vector3d place(std::uint32_t joint) const { return body.is[joint].place + by; }
+    Vector3d place(std::uint32_t joint) const { return body.solved[joint].place + by; }
     Held hand(std::uint32_t group) const
     {
         const Held hand = body.hand(group);
@@ -156,20 +156,20 @@ struct ToldBody {
     }
     Held told(swivel_field field, std::uint32_t group) const
     {
-        const Held is = held(solved.result<Float7>(field, group, n));
-        return {is.rotation, of.from_root(n, is.place)};
+        const Held transform = held(solved.result<Float7>(field, group, n));
+        return {transform.rotation, bodies.from_root(n, transform.place)};
     }
     template <class Value>
     Vector3d told_first(swivel_field field, std::uint32_t group) const
     {
         const auto value = solved.result<Value>(field, group, n);
-        return of.from_root(n, Vector3d(double{value[0]}, double{value[1]}, double{value[2]}));
+        return bodies.from_root(n, Vector3d(double{value[0]}, double{value[1]}, double{value[2]}));
     }
     bool reached(std::uint32_t group) const { return (solved.flags(group, n) & SWIVEL_REACHED) != 0; }
 
     void check_hand() const
     {
-        const Wanted& wanted = of.wanted[n];
+        const Wanted& wanted = bodies.wanted[n];
         const BodyLimbJoints& joints = body.joints(B::hand);
         REQUIRE(reached(B::hand));
         REQUIRE((place(joints.wrist) - wanted.hand).norm() <= kOff);
@@ -177,7 +177,7 @@ struct ToldBody {
         REQUIRE(angle_between(line.cross(wanted.pole - shoulder), line.cross(place(joints.elbow) - shoulder)) <= 1e-3);
         const Held transform = told(SWIVEL_HAND_TRANSFORM, B::hand);
         REQUIRE((transform.place - place(joints.wrist)).norm() <= kOff);
-        REQUIRE(distance(transform.rotation, body.is[joints.wrist].rotation) <= kOff);
+        REQUIRE(distance(transform.rotation, body.solved[joints.wrist].rotation) <= kOff);
         REQUIRE((told_first<std::array<float, 22>>(SWIVEL_RECORD, B::hand) - shoulder).norm() <= kOff);
         std::array<double, 3> elbow, wrist;
         double residual;
@@ -185,13 +185,13 @@ struct ToldBody {
         const auto number = static_cast<std::uint32_t>(n);
         check(swivel_forward(solved.crowd.get(), B::hand, number, 1, out(elbow), out(wrist), {nullptr, 0}));
         check(swivel_residuals(solved.crowd.get(), B::hand, number, 1, out(residual)));
-        REQUIRE((of.from_root(n, Vector3d(elbow.data())) - place(joints.elbow)).norm() <= kOff);
-        REQUIRE((of.from_root(n, Vector3d(wrist.data())) - place(joints.wrist)).norm() <= kOff);
+        REQUIRE((bodies.from_root(n, Vector3d(elbow.data())) - place(joints.elbow)).norm() <= kOff);
+        REQUIRE((bodies.from_root(n, Vector3d(wrist.data())) - place(joints.wrist)).norm() <= kOff);
         REQUIRE(residual * body.length(B::hand) <= kOff);
     }
     void check_foot() const
     {
-        const Wanted& wanted = of.wanted[n];
+        const Wanted& wanted = bodies.wanted[n];
         REQUIRE(reached(B::leg));
         REQUIRE((body.point(B::leg).place + by - wanted.foot).norm() <= kOff);
         REQUIRE((told(SWIVEL_SOLVED_GOAL, B::leg).place - wanted.foot).norm() <= kOff);
@@ -199,7 +199,7 @@ struct ToldBody {
     }
     void check_prop() const
     {
-        const Wanted& wanted = of.wanted[n];
+        const Wanted& wanted = bodies.wanted[n];
         REQUIRE(reached(B::prop));
         REQUIRE((told(SWIVEL_PROP_TRANSFORM, B::prop).place - wanted.prop.place).norm() <= kOff);
         const auto check_holder = [&](std::uint32_t group, const Held& at) {
@@ -212,21 +212,21 @@ struct ToldBody {
     }
     void check_look() const
     {
-        const JointAt& head = body.is.back();
-        const swivel_look_def& look = std::get<swivel_look_def>(of.groups[B::look]);
+        const JointAt& head = body.solved.back();
+        const swivel_look_def& look = std::get<swivel_look_def>(bodies.groups[B::look]);
         const Vector3d eye = head.place + by + head.rotation * (head.scale * vec(look.eye));
         REQUIRE(reached(B::look));
         REQUIRE((told_first<Float6>(SWIVEL_SIGHT, B::look) - eye).norm() <= kOff);
-        REQUIRE(angle_between(of.wanted[n].sight - eye, head.rotation * Vector3d::UnitZ()) <= 1e-4);
+        REQUIRE(angle_between(bodies.wanted[n].sight - eye, head.rotation * Vector3d::UnitZ()) <= 1e-4);
     }
     void check_joints() const
     {
-        const Quaterniond root = quat(body.was_body.root_rotation).normalized();
-        for (std::uint32_t joint = 0; joint < of.skeleton.size(); ++joint) {
-            const std::size_t at = n * of.skeleton.size() + joint;
+        const Quaterniond root = quat(body.incoming.root_rotation).normalized();
+        for (std::uint32_t joint = 0; joint < bodies.skeleton.size(); ++joint) {
+            const std::size_t at = n * bodies.skeleton.size() + joint;
             if (solved.joint_rotations[at] == Float4{}) continue;  // no group needs it
             const Vector3d in_body = vec(solved.joint_positions[at]);
-            REQUIRE((double{body.was_body.root_scale} * (root * in_body) - place(joint)).norm() <= kOff);
+            REQUIRE((double{body.incoming.root_scale} * (root * in_body) - place(joint)).norm() <= kOff);
         }
     }
 };
@@ -274,12 +274,12 @@ TEST_CASE("the weight of a pose counts for the shift that positions of joints ha
     crowd.solve({.pose = &pose});
     for (std::size_t n = 0; n < kBodies; ++n) {
         const Body& given = bodies.bodies[n];
-        const std::vector<JointAt> is = joints_at(bodies.skeleton, poses.read(n, given));
+        const std::vector<JointAt> solved = joints_at(bodies.skeleton, poses.read(n, given));
         const Quaterniond root = quat(given.root_rotation).normalized();
         for (std::size_t joint = 0; joint < count; ++joint) {
             const Float3& in_body = told[n * count + joint];
             if (std::isnan(in_body[0])) continue;  // no group needs it
-            const Vector3d place = is[joint].place + double{weight} * bodies.wanted[n].by;
+            const Vector3d place = solved[joint].place + double{weight} * bodies.wanted[n].by;
             REQUIRE((double{given.root_scale} * (root * vec(in_body)) - place).norm() <= kOff);
         }
     }

@@ -289,11 +289,12 @@ TEST_CASE("C++: a stream is the first one's member, or a part of it, and the way
     const std::vector<Made> classes(20, Made(1));  // taken for floats, which need no origin
     made.in(SWIVEL_PARENT_SCALE, stream(classes));
     const swivel_streams view = made;
-    CHECK((view.fields[0].data == classes.data() && view.fields[1].data == nullptr));
-    CHECK(view.positions == SWIVEL_NUMBERS_UNSPECIFIED);
-    made.in(SWIVEL_TARGET, stream(characters, &Person::grip));  // a view sees what is added later
-    CHECK(view.fields[1].data == &characters[0].grip);
-    CHECK(swivel_streams(made).positions == SWIVEL_FLOATS);
+    CHECK((view.fields[0].data == classes.data() && view.positions == SWIVEL_NUMBERS_UNSPECIFIED));
+    made.in(SWIVEL_TARGET, stream(characters, &Person::grip));
+    CHECK(view.field_count == 1);  // a view lists what had been added before
+    const swivel_streams later = made;
+    CHECK((later.field_count == 2 && later.fields[1].data == &characters[0].grip));
+    CHECK(later.positions == SWIVEL_FLOATS);
     const auto second_target = [](auto& person) -> auto& { return person.legs[1].target; };
     const swivel_out left = stream(characters, second_target);
     CHECK((left.data == &characters[0].legs[1].target && left.stride == sizeof(Person)));

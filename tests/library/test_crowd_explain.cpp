@@ -357,6 +357,46 @@ TEST_CASE("explain says by which angles a limit turned the elbow, or a pose that
     CHECK(turned > 20);
 }
 
+TEST_CASE("explain says how far a limit turned the elbow of an arm that aims, about the line to its target")
+{
+    Random random{11};
+    constexpr std::uint32_t count = 300;
+    Crowd crowd = crowd_of(SWIVEL_WITH_AIM | SWIVEL_WITH_SHOULDER_CONE, count), free = crowd_of(SWIVEL_WITH_AIM, count);
+    std::vector<Float3> targets;
+    std::vector<std::array<float, 5>> aims;
+    std::vector<Float3> poles;
+    for (std::uint32_t n = 0; n < count; ++n) {
+        const Vector3d ray = random.direction();
+        targets.push_back(floats(random.vector(2, 8)));
+        aims.push_back(aim({ray.x(), ray.y(), ray.z()}, random.between(0.2, 2)));
+        poles.push_back(floats(random.vector(1, 2)));
+    }
+    for (Crowd* const each : {&crowd, &free}) {
+        each->write_all(SWIVEL_LENGTHS, 0, Float2{1, 0.8f});
+        each->write(SWIVEL_TARGET, 0, targets);
+        each->write(SWIVEL_AIM, 0, aims);
+        each->write(SWIVEL_POLE, 0, poles);
+    }
+    crowd.write_all(SWIVEL_SHOULDER_CONE, 0, cone({0, 0, 1}, 1));
+    crowd.solve();
+    free.solve();
+    std::vector<std::array<double, 3>> elbow(count), wished(count);
+    crowd.elbows(0, elbow);
+    free.elbows(0, wished);
+    int turned = 0;
+    for (std::uint32_t n = 0; n < count; ++n) {
+        const std::string text = explain(crowd, 0, n), words = "keeps all limits is ";
+        if (text.find(words) == std::string::npos) continue;
+        const Vector3d line = vec(targets[n]).normalized();
+        const auto across = [&](const std::array<double, 3>& at) { return Vector3d(line.cross(Vector3d(at.data()))); };
+        INFO(text);
+        CHECK(number_after(text, words) ==
+              Approx(angle_between(across(elbow[n]), across(wished[n])) / degrees(1)).margin(0.11));
+        ++turned;
+    }
+    CHECK(turned > 20);
+}
+
 TEST_CASE("SWIVEL_EXPLANATION_BYTES hold the longest text, of a limb whose every input is bad")
 {
     const swivel_features all = all_beside(kWorldJointsHand, kPoleFeatures | SWIVEL_WITH_REGION),

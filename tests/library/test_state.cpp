@@ -225,29 +225,29 @@ TEST_CASE("a solve starts from no result outside of the state")
 TEST_CASE("the state of some bodies goes to any others, and nothing allocates")
 {
     Walkers walkers;
-    const Crowd from = walkers.played(30);
-    Crowd to = walkers.played(12);
+    const Crowd source = walkers.played(30);
+    Crowd loaded = walkers.played(12);
     const Crowd before = walkers.played(12);
-    const std::size_t each = swivel_state_bytes(from.get());
+    const std::size_t each = swivel_state_bytes(source.get());
     State some(5 * each + 3);
     const std::size_t allocations = allocation_count();
-    const swivel_status status[] = {swivel_save(from.get(), 14, 5, some.data() + 1, some.size() - 1),  // on no word
-                                    swivel_load(to.get(), 29, 5, some.data() + 1, some.size() - 1),
-                                    swivel_reset_body(to.get(), 2, 2)};
-    const std::uint64_t digest = to.state_digest();
+    const swivel_status status[] = {swivel_save(source.get(), 14, 5, some.data() + 1, some.size() - 1),  // on no word
+                                    swivel_load(loaded.get(), 29, 5, some.data() + 1, some.size() - 1),
+                                    swivel_reset_body(loaded.get(), 2, 2)};
+    const std::uint64_t digest = loaded.state_digest();
     CHECK(allocation_count() == allocations);
     for (const swivel_status each_status : status) CHECK(each_status == SWIVEL_OK);
     CHECK(digest != before.state_digest());
-    CHECK((swivel_save(from.get(), kWalkers, 0, nullptr, 0) == SWIVEL_OK));
-    CHECK((swivel_load(to.get(), 0, 0, nullptr, 0) == SWIVEL_OK));
+    CHECK((swivel_save(source.get(), kWalkers, 0, nullptr, 0) == SWIVEL_OK));
+    CHECK((swivel_load(loaded.get(), 0, 0, nullptr, 0) == SWIVEL_OK));
     for (std::uint32_t g = 0; g < kGroups; ++g)
         for (std::uint32_t n = 0; n < kWalkers; ++n) {
             const auto carried = [&](const Crowd& crowd, std::uint32_t body) {
                 return bits_of_group(crowd, g, body, SWIVEL_FIELD_CARRIED);
             };
-            const std::vector<std::uint32_t> now = carried(to, n);
+            const std::vector<std::uint32_t> now = carried(loaded, n);
             if (n >= 29 && n < 34)
-                REQUIRE(now == carried(from, n - 15));
+                REQUIRE(now == carried(source, n - 15));
             else if (n == 2 || n == 3)
                 REQUIRE(now == std::vector<std::uint32_t>(now.size()));
             else

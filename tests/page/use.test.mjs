@@ -61,7 +61,7 @@ onDemo('overlays, colours, light and dark, drawn characters change the picture',
     const { share } = await difference(page, act);
     assert.ok(share > min, `${name}: ${share}`);
   };
-  for (const overlay of ['spheres', 'circle', 'plane', 'middle', 'pole', 'cones'])
+  for (const overlay of ['spheres', 'circle', 'plane', 'middle', 'pole', 'limits'])
     await changes(() => page.evaluate((name) => document.querySelector(`[data-overlay=${name}]`).click(), overlay), 0.0001, overlay);
   for (const colour of ['Error', 'Flag', 'Flexion']) {
     await changes(() => page.getByLabel('Colour limbs by').selectOption(colour), 0.002, colour);
@@ -232,6 +232,103 @@ onDemo('a phone sees mostly the crowd, the panel below when asked, and a touch c
   }
   assert.ok((await pixel(page, 'target')).y < box.y, 'the chosen limb is above the panel');
 }, { ...link, viewport: { width: 390, height: 700 }, hasTouch: true, isMobile: true });
+
+/**
+ * Switches on all that swivel_draw() gives of the chosen limb, and nothing else. Tells the shapes' names, how many are given and drawn, whether each
+ * is drawn in its place and colour, and whether some are the bones as solved.
+ */
+async function drawShapes(page) {
+  await page.getByText('Overlays', { exact: true }).click();
+  for (const box of await page.locator('[data-overlay]:visible').all())
+    await box.setChecked(!['spheres', 'circle', 'plane', 'middle', 'trail'].includes(await box.getAttribute('data-overlay')));
+  return page.evaluate(() => {
+    const { stage, view: { marks }, selection: { limb, character } } = swivelPage, near = 1e-4 * stage.armLength(limb, character), drawn = [];
+    marks.traverse((node) => {  // balls that one may drag are less deep, or are the rim of such a ball
+      if (!node.isMesh || node.parent.isMesh || node.parent.parent?.parent !== marks) return;
+      const half = node.position.clone().set(0, (node.geometry.parameters.height ?? 0) / 2, 0).applyQuaternion(node.quaternion);
+      const middle = node.position.clone().add(node.parent.parent.position);
+      drawn.push({ from: middle.clone().sub(half).toArray(), to: middle.clone().add(half).toArray(), color: node.material.color.getHex('srgb-linear') });
+    });
+    const shapes = stage.shapes(limb, character), isLike = (a, b) => apart(a.from, b.from) < near && apart(a.to, b.to) < near;
+    const isDrawn = (shape) => drawn.some((mark) => mark.color === shape.color >>> 8 && isLike(mark, shape));
+    const { shoulder, elbow, wrist } = stage.pose(limb, character), bones = [[shoulder, elbow], [elbow, wrist]].map(([from, to]) => ({ from, to }));
+    return { names: [...new Set(shapes.map(({ name }) => name))], counts: [shapes.length, drawn.length], areDrawn: shapes.every(isDrawn),
+      areSolved: bones.every((bone) => shapes.some((shape) => shape.name === 'bone' && isLike(shape, bone))) };
+  });
+}
+const hasAll = (names, wanted) => assert.deepEqual(wanted.filter((name) => !names.includes(name)), [], `${names}`);
+const colour = (page, name) => page.locator(`.swatch[title="${name}"]`).evaluate((swatch) => getComputedStyle(swatch).backgroundColor);
+
+onDemo('all that swivel_draw() gives of the chosen limb is drawn where it is solved, each shape by one switch with its colour', async (page) => {
+  await page.getByText('Limits and weights').click();
+  for (const field of ['SHOULDER_CONE', 'HAND_CONE']) await page.locator(`[data-field=${field}]`).check();
+  const { names, counts: [given, drawn], areDrawn, areSolved } = await drawShapes(page);
+  hasAll(names, ['bone', 'incoming', 'bend', 'axis_x', 'axis_y', 'axis_z', 'target', 'pole', 'wish', 'cone']);
+  assert.deepEqual([drawn, areDrawn, areSolved], [given, true, true]);
+  assert.deepEqual([await colour(page, 'pole'), await colour(page, 'axis x')], ['rgb(255, 0, 255)', 'rgb(255, 0, 0)']);
+  assert.equal(await page.locator('[data-overlay=ground]').isVisible(), false, 'an arm has no ground');
+  assert.ok(await page.evaluate(() => {
+    const swatch = document.querySelector('.swatch[title=pole]');
+    swivelPage.setFrame(21);
+    return swatch.isConnected;
+  }), 'a hint stays from frame to frame');
+});
+
+onDemo('a miss is drawn where a limb is off its target, by its weight or out of reach, and not where it has reached it', async (page) => {
+  /** Sends the hand so many arm lengths straight below the shoulder. Tells whether it reaches what it is sent to, and the misses drawn. */
+  const send = (lengths) => page.evaluate((below) => {
+    const { stage, selection: { limb, character } } = swivelPage, length = stage.armLength(limb, character);
+    swivelPage.drag('target', stage.shoulder(limb, character).map((x, axis) => x - (axis === 1 ? below * length : 0)));
+    return [(stage.flags(limb, character) & 1) === 1, stage.shapes(limb, character).filter(({ name }) => name === 'miss').length];
+  }, lengths);
+  assert.deepEqual([await send(0.8), await send(2)], [[true, 0], [false, 1]]);
+  await page.getByText('Limits and weights').click();
+  await page.locator('[data-field=WEIGHTS]').check();
+  await page.evaluate(() => swivelPage.fields.WEIGHTS.set([0.5, 1, 1]));
+  assert.deepEqual(await send(0.8), [true, 1], 'half of the way is reached');
+});
+
+test('an aiming arm is drawn with its elbow\'s circle about the line to its target, on which its limits\' arcs are', async () => {
+  const toml = file('aims.toml', `[limb.all]
+aim = { axis = [0, 1, 0], flexion_deg = 60 }
+target.offset = [3, 4, 9]
+limits.shoulder_cone = { axis = [0, 0, 1], opening_deg = 170 }
+`);
+  await visit(write('aims.html', 'view', clip, '--characters', '2', '--frames', '30', '--crowd', toml), async (page) => {
+    await choose(page, 'left_arm', 1);
+    const { count, arcs, depthTest, off } = await page.evaluate(() => {
+      const { stage, view: { marks }, selection: { limb, character } } = swivelPage, rings = [];
+      marks.traverse((node) => { if (node.geometry?.type === 'TorusGeometry' && node.parent.parent.parent === marks) rings.push(node); });  // the spheres' are deeper
+      const [{ position, quaternion, geometry: { parameters: { radius } }, material: { depthTest }, parent }] = rings;
+      const centre = position.clone().add(parent.parent.position), axis = position.clone().set(0, 0, 1).applyQuaternion(quaternion);
+      const offRing = (place) => {
+        const from = centre.clone().fromArray(place).sub(centre);
+        return Math.max(Math.abs(from.dot(axis)), Math.abs(from.length() - radius)) / stage.armLength(limb, character);
+      };
+      const arcs = stage.shapes(limb, character).filter(({ name }) => name === 'allowed').flatMap(({ from, to }) => [from, to]);
+      return { count: rings.length, arcs: arcs.length, depthTest, off: Math.max(...[stage.pose(limb, character).elbow, ...arcs].map(offRing)) };
+    });
+    assert.deepEqual([count, depthTest], [1, false], 'one circle, which nothing hides');
+    assert.ok(arcs > 0 && off < 1e-4, `${arcs} ends of arcs, ${off} arm lengths off the circle`);
+  });
+});
+
+test('feet are drawn with their ground and the body\'s shift; an arm that goes along has no target to miss', async () => {
+  const toml = file('drawn.toml', '[crowd]\nlimbs = "all"\n[ground]\n');
+  await visit(write('drawn.html', 'view', clip, '--characters', '2', '--frames', '30', '--crowd', toml), async (page) => {
+    await page.evaluate(() => swivelPage.setFrame(9));
+    await choose(page, 'left_leg', 1);
+    const { names, counts: [given, drawn], areDrawn, areSolved } = await drawShapes(page);
+    hasAll(names, ['bone', 'goal', 'probe', 'ground', 'shift']);
+    assert.deepEqual([drawn, areDrawn, areSolved], [given, true, true]);
+    assert.equal(await colour(page, 'ground'), 'rgb(160, 82, 45)');
+    const arm = await page.evaluate(() => {
+      const limb = limbOf('left_arm');
+      return swivelPage.stage.shapes(limb, 1).filter(({ group }) => group === limb.index).map(({ name }) => name);
+    });
+    assert.deepEqual(['bend', 'target', 'axis_x', 'axis_y', 'axis_z', 'miss'].filter((name) => arm.includes(name)), ['bend'], 'without axes in the air');
+  });
+});
 
 onDemo('a trail shows where the chosen wrist has been, through frames in order', async (page) => {
   const points = () => page.evaluate(() => {

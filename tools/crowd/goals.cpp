@@ -5,7 +5,6 @@
 #include <string.h>
 #include <cmath>
 
-#include "swivel/swivel_bodies.h"
 #include "tools/crowd/ground.h"
 #include "tools/crowd/heading.h"
 #include "tools/crowd/strides.h"
@@ -36,14 +35,14 @@ Vec3 turned(const Number (&q)[4], const Vec3& v)
 }
 
 template <class Number>
-void store(const Vec3& v, Number (&to)[3])
+void store(const Vec3& v, Number (&result)[3])
 {
-    to[0] = static_cast<Number>(v.x), to[1] = static_cast<Number>(v.y), to[2] = static_cast<Number>(v.z);
+    result[0] = static_cast<Number>(v.x), result[1] = static_cast<Number>(v.y), result[2] = static_cast<Number>(v.z);
 }
-template <class From, class To, int count>
-void copy(const From (&from)[count], To (&to)[count])
+template <class Number, class Result, int count>
+void copy(const Number (&numbers)[count], Result (&results)[count])
 {
-    for (int n = 0; n < count; ++n) to[n] = static_cast<To>(from[n]);
+    for (int n = 0; n < count; ++n) results[n] = static_cast<Result>(numbers[n]);
 }
 
 // A vector of the clip, turned along with a character; and a rotation of the clip.
@@ -187,7 +186,7 @@ struct GroupInputs {
     swivel_stream fields[7];
     swivel_streams frame;
 };
-void list_inputs(const swivel_crowd* crowd, uint32_t group, const goal_input& first, size_t stride, GroupInputs& to)
+void list_inputs(const swivel_crowd* crowd, uint32_t group, const goal_input& first, size_t stride, GroupInputs& list)
 {
     const struct {
         swivel_field field;
@@ -195,11 +194,11 @@ void list_inputs(const swivel_crowd* crowd, uint32_t group, const goal_input& fi
     } inputs[] = {{SWIVEL_TARGET, first.target},     {SWIVEL_POLE, first.pole},        {SWIVEL_HAND, first.hand},
                   {SWIVEL_WEIGHTS, first.weights},   {SWIVEL_CONTACT, &first.contact}, {SWIVEL_GRIP, first.grip},
                   {SWIVEL_LOOK_TARGET, first.target}};
-    to.frame = swivel_default_streams();
-    to.frame.fields = to.fields;
+    list.frame = swivel_default_streams();
+    list.frame.fields = list.fields;
     for (const auto& input : inputs)
         if (swivel_field_row_count(crowd, group, input.field) > 0)
-            to.fields[to.frame.field_count++] = {input.field, const_cast<void*>(input.data), stride};
+            list.fields[list.frame.field_count++] = {input.field, const_cast<void*>(input.data), stride};
 }
 
 uint32_t twist_bones_of(const swivel_crowd* crowd, uint32_t group)
@@ -294,13 +293,11 @@ swivel_status swivel_goals_solve(swivel_crowd* crowd, const goal_ground* ground,
                                  float* poses, swivel_job* job)
 {
     constexpr size_t kMaxJoints = size_t{GOAL_MAX_LIMBS} * (size_t{GOAL_JOINTS} + SWIVEL_MAX_TWIST_BONES);
-    constexpr size_t kRotation = 4 * sizeof(float), kPlace = 3 * sizeof(float);
     const uint32_t limb_count = limb_count_of(crowd);
     if (limb_count > GOAL_MAX_LIMBS) return SWIVEL_INVALID_ARGUMENT;
     const bool has_shift = swivel_group_count(crowd) > limb_count;
     if (swivel_group_count(crowd) > limb_count + 1) return SWIVEL_INVALID_ARGUMENT;
     const size_t stride = limb_count * sizeof(goal_input);
-    size_t rotations[kMaxJoints], places[kMaxJoints], results[kMaxJoints], joint = 0;
     GroupInputs lists[GOAL_MAX_LIMBS];
     swivel_streams frames[GOAL_MAX_LIMBS + 1];
     const swivel_stream wish{SWIVEL_SHIFT_WISH, const_cast<float*>(&characters[0].wish), sizeof(goal_character)};
@@ -310,25 +307,11 @@ swivel_status swivel_goals_solve(swivel_crowd* crowd, const goal_ground* ground,
     for (uint32_t limb = 0; limb < limb_count; ++limb) {
         list_inputs(crowd, limb, inputs[limb], stride, lists[limb]);
         frames[limb] = lists[limb].frame;
-        const uint32_t joint_count = GOAL_JOINTS + twist_bones_of(crowd, limb);
-        for (uint32_t n = 0; n < joint_count; ++n, ++joint) {
-            const size_t begin = limb * sizeof(goal_input), turn = n < GOAL_JOINTS ? n : uint32_t{GOAL_JOINTS},
-                         place = n < GOAL_JOINTS ? n : 0;  // of twist bones it does not matter
-            rotations[joint] = begin + offsetof(goal_input, rotations) + turn * kRotation;
-            places[joint] = begin + offsetof(goal_input, places) + place * kPlace;
-            results[joint] = joint * kRotation;
-        }
     }
-    swivel_pose pose = swivel_default_pose();
-    pose.root_is_double = 1;
-    void* const data = const_cast<goal_input*>(inputs);  // which are only read
-    pose.rotations = {data, stride, 0, rotations};
-    pose.translations = {data, stride, 0, places};
-    pose.results = {poses, joint * kRotation, 0, results};
-    pose.root_position = {roots[0].place, sizeof(goal_root)};
-    pose.root_scale = {&roots[0].size, sizeof(goal_root)};
+    size_t offsets[2 * kMaxJoints];
+    swivel_pose pose;
+    swivel_goals_pose(crowd, characters, roots, inputs, poses, offsets, &pose);
     pose.time = {&seconds, 0};
-    pose.support_position = {characters[0].place, sizeof(goal_character)};
     Standing standing{ground, heights, roots, inputs, limb_count};
     job->streams = frames;
     job->pose = &pose;
@@ -348,6 +331,34 @@ uint32_t swivel_goal_pose_size(const swivel_crowd* crowd)
     for (uint32_t limb = 0; limb < limb_count_of(crowd); ++limb)
         size += 4 * (GOAL_JOINTS + twist_bones_of(crowd, limb));
     return size;
+}
+
+void swivel_goals_pose(const swivel_crowd* crowd, const goal_character* characters, const goal_root* roots,
+                       const goal_input* inputs, float* poses, size_t* offsets, swivel_pose* pose)
+{
+    constexpr size_t kRotation = 4 * sizeof(float), kPlace = 3 * sizeof(float);
+    const uint32_t limb_count = limb_count_of(crowd), joint_count = swivel_goal_pose_size(crowd) / 4;
+    const size_t stride = limb_count * sizeof(goal_input);
+    size_t *const rotations = offsets, *const places = offsets + joint_count;
+    size_t joint = 0;
+    for (uint32_t limb = 0; limb < limb_count; ++limb) {
+        const uint32_t count = GOAL_JOINTS + twist_bones_of(crowd, limb);
+        for (uint32_t n = 0; n < count; ++n, ++joint) {
+            const size_t begin = limb * sizeof(goal_input), turn = n < GOAL_JOINTS ? n : uint32_t{GOAL_JOINTS},
+                         place = n < GOAL_JOINTS ? n : 0;  // of twist bones it does not matter
+            rotations[joint] = begin + offsetof(goal_input, rotations) + turn * kRotation;
+            places[joint] = begin + offsetof(goal_input, places) + place * kPlace;
+        }
+    }
+    *pose = swivel_default_pose();
+    pose->root_is_double = 1;
+    void* const data = const_cast<goal_input*>(inputs);  // which are only read
+    pose->rotations = {data, stride, 0, rotations};
+    pose->translations = {data, stride, 0, places};
+    pose->results = {poses, joint_count * kRotation, kRotation, nullptr};
+    pose->root_position = {roots[0].place, sizeof(goal_root)};
+    pose->root_scale = {&roots[0].size, sizeof(goal_root)};
+    pose->support_position = {characters[0].place, sizeof(goal_character)};
 }
 
 uint64_t swivel_goals_digest(const swivel_crowd* crowd, const float* poses)

@@ -8,7 +8,7 @@
 
 #include <stdint.h>
 
-#include "swivel/swivel.h"
+#include "swivel/swivel_bodies.h"
 
 extern "C" {
 
@@ -165,6 +165,13 @@ swivel_status swivel_goals_solve(swivel_crowd* crowd, const goal_ground* ground,
                                  const goal_character* characters, goal_root* roots, const goal_input* inputs,
                                  float* poses, swivel_job* job);
 uint32_t swivel_goal_pose_size(const swivel_crowd* crowd);
+
+// The pose that swivel_goals_solve() solves, without its time. swivel_draw() takes it after a solve.
+// Parameters: as those of swivel_goals_solve(). The pose points to their arrays.
+// offsets: swivel_goal_pose_size() / 2 numbers, which this fills; they must live as long as the pose.
+// Any thread; no allocation.
+void swivel_goals_pose(const swivel_crowd* crowd, const goal_character* characters, const goal_root* roots,
+                       const goal_input* inputs, float* poses, size_t* offsets, swivel_pose* pose);
 
 // The digest of all results: swivel_digest(), continued with the poses of all bodies.
 uint64_t swivel_goals_digest(const swivel_crowd* crowd, const float* poses);

@@ -203,8 +203,9 @@ void add_explanations(CrowdClass& crowd)
     crowd.def("draw", &draw, py::kw_only(), py::arg("limb"), py::arg("group") = py::none(),
               py::arg("pose") = py::none(),
               "What a limb or body does, as lines: (names, lines, colors). names says of each what it is, such as\n"
-              "'bone' or 'miss'; lines (count, 2, 3) float64 are in the space of the targets, and points have equal\n"
-              "ends; colors (count, 4) uint8 are red, green, blue, alpha.\n\n"
+              "'bone' or 'miss'; lines (count, 2, 3) float64 have equal ends where they are points; colors (count, 4)\n"
+              "uint8 are red, green, blue, alpha. Bodies: in the world. Free limbs: in the space of their rows, from\n"
+              "their origin; without WORLD in the arm frame.\n\n"
               "pose: of bodies, the one of the last solve. group None: all groups of body `limb`, or group 0 of free\n"
               "limbs.");
 }

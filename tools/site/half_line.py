@@ -39,7 +39,7 @@ def sphere():
 
 
 def normals(features, directions):
-    """Of the swivel planes of arms whose wrists lie in these directions."""
+    """The normals of the swivel planes of arms whose wrists lie in these directions."""
     crowd = swivel.Crowd(Group(len(directions), features=features))
     crowd.write(Field.TARGET, np.float32(1.5 * directions))
     crowd.write(Field.LENGTHS, ARM)
@@ -51,16 +51,17 @@ def normals(features, directions):
 
 
 def table():
+    """Prints a line for each way to give a pole. Returns how often the half-line's elbow jumps far from pole_behind."""
     swept = sphere()
     far = angles(swept[1:], BEHIND) > NEAR
     print(f"{len(swept)} targets\n{'':12} jumps  further than 10 degrees from pole_behind  largest step there, degrees")
-    elsewhere = 0
+    far_jumps = {}
     for name, features in WAYS.items():
-        made = normals(features, swept)
-        steps = angles(made[:-1], made[1:])
-        elsewhere = np.sum(far & (steps > JUMP))
-        print(f"{name:12} {np.sum(steps > JUMP):5} {elsewhere:42} {np.degrees(np.max(steps[far])):30.1f}")
-    return elsewhere
+        planes = normals(features, swept)
+        steps = angles(planes[:-1], planes[1:])
+        far_jumps[name] = np.sum(far & (steps > JUMP))
+        print(f"{name:12} {np.sum(steps > JUMP):5} {far_jumps[name]:42} {np.degrees(np.max(steps[far])):30.1f}")
+    return far_jumps["half-line"]
 
 
 def steps_on(grid, features):
@@ -68,7 +69,8 @@ def steps_on(grid, features):
     side = np.cross(grid, np.where(np.abs(grid[:, :1]) < 0.6, (1.0, 0, 0), (0, 1.0, 0)))
     side /= np.linalg.norm(side, axis=-1, keepdims=True)
     here = normals(features, grid)
-    return np.degrees(np.maximum(*(angles(here, normals(features, np.cos(STEP) * grid + np.sin(STEP) * way)) for way in (side, np.cross(grid, side)))))
+    turns = [angles(here, normals(features, np.cos(STEP) * grid + np.sin(STEP) * way)) for way in (side, np.cross(grid, side))]
+    return np.degrees(np.maximum(*turns))
 
 
 def drawn():
@@ -92,8 +94,8 @@ def drawn():
 
 
 if __name__ == "__main__":
-    jumps = table()
+    far_jumps = table()
     if len(sys.argv) > 1:
         drawn().savefig(sys.argv[1], metadata={"Date": None, "Creator": None})
         plt.close()
-    sys.exit("the half-line has jumps elsewhere" if jumps else 0)
+    sys.exit("the half-line has jumps elsewhere" if far_jumps else 0)

@@ -1,10 +1,5 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Draws one body as Crowd.draw() shows it: as it should be, and with seven mistakes in its input that no call refuses.
-
-    PYTHONPATH=build/dev/python tools/site/mistake_pictures.py mistakes.svg"""
-import sys
-
+"""One body as Crowd.draw() shows it: as it should be, and with seven mistakes in its input that no call refuses. pictures.py draws it."""
 import numpy as np
 from matplotlib.collections import LineCollection
 from pictures import INK, plt
@@ -19,13 +14,22 @@ PLACES = np.float32([(0, 0.95, 0), (0.1, -0.05, 0), (0, -0.45, 0), (0, -0.42, 0)
                      (0.2, 0, 0), (0.29, 0, 0), (0.26, 0, 0), (-0.2, 0, 0), (-0.29, 0, 0), (-0.26, 0, 0)])
 LIMBS = {"l_thigh": -1, "r_thigh": -1, "l_upper": 1, "r_upper": 1}  # the first joint, and where flexion carries the lower bone along z
 ROOT, ROOT_TURN = np.array((2.0, 0.0, -1.0)), 0.6
-AHEAD = np.array((np.sin(ROOT_TURN), 0, np.cos(ROOT_TURN)))
 FEATURES = Feature.WITH_HAND | Feature.WITH_RECORD
-PANEL = 1.35  # half of a panel's height, metres
+PANEL = 1.35  # half of a panel's side, metres
 
 
 def about(axis, angle):
     return np.float32([*(np.sin(angle / 2) * np.array(axis, float)), np.cos(angle / 2)])
+
+
+def times(a, b):
+    """Hamilton's product of x, y, z, w: b first, then a."""
+    u, v = a[:3], b[:3]
+    return np.append(a[3] * v + b[3] * u + np.cross(u, v), a[3] * b[3] - u @ v)
+
+
+def turned(q, v):
+    return times(times(q, np.append(v, 0)), q * (-1, -1, -1, 1))[:3]
 
 
 def rotations():
@@ -39,27 +43,26 @@ def rotations():
 
 
 def world(pose):
-    """Places and rotations of all joints, by a solve that corrects nothing. The pelvis, which has no turn of its own, takes the root's."""
-    places, turns = np.zeros((1, len(NAMES), 3), np.float32), np.zeros((1, len(NAMES), 4), np.float32)
-    crowd = swivel.Crowd([group(name) for name in LIMBS], skeleton=Skeleton(PARENTS, PLACES), body_count=1)
-    crowd.solve(pose=Pose([about((0, 1, 0), ROOT_TURN), *pose[1:]], weight=0.0, joint_positions=places, joint_rotations=turns,
-                          out=np.zeros((1, len(NAMES), 4), np.float32)))
-    return places[0] + ROOT, turns[0]
-
-
-def group(name, is_bent_the_other_way=False):
-    first = NAMES.index(name)
-    return BodyGroup(first, first + 1, first + 2, bend=(0, 0, -LIMBS[name] if is_bent_the_other_way else LIMBS[name]))
+    """Places and rotations of all joints, by forward kinematics."""
+    places, turns = [], []
+    for joint, parent in enumerate(PARENTS):
+        above, at = (about((0, 1, 0), ROOT_TURN), ROOT) if parent < 0 else (turns[parent], places[parent])
+        places.append(at + turned(above, PLACES[joint]))
+        turns.append(times(above, pose[joint]))
+    return np.array(places), np.array(turns)
 
 
 def drawn(mistake=None):
     """The names, lines and colours of the body, solved with this mistake."""
     pose = rotations()
     places, turns = world(pose)
-    goals = []
+    groups, goals = [], []
     for name, bend in LIMBS.items():
         first = NAMES.index(name)
-        goals.append([places[first + 2] + (0.04, 0.05, 0.03), places[first + 1] - 0.4 * bend * AHEAD, turns[first + 2]])
+        groups.append(BodyGroup(first, first + 1, first + 2, bend=(0, 0, -bend if mistake == "the bend the other way" else bend)))
+        target = places[first + 2] + (0.04, 0.05, 0.03)
+        pole = places[first + 1] + turned(about((0, 1, 0), ROOT_TURN), np.array((0, 0, -bend * 0.4)))
+        goals.append([target, pole, turns[first + 2]])
     root = {"root_position": np.float32(ROOT), "root_rotation": about((0, 1, 0), ROOT_TURN)}
     for goal in goals:
         if mistake == "y and z exchanged":
@@ -70,15 +73,14 @@ def drawn(mistake=None):
             goal[:2] = 100 * goal[0], 100 * goal[1]
     if mistake == "quaternions w first":
         pose = np.ascontiguousarray(pose[:, [3, 0, 1, 2]])
-    elif mistake == "matrices of the other order":
+    elif mistake == "matrices transposed":
         pose = pose * np.float32((-1, -1, -1, 1))
     elif mistake == "the root forgotten":
         root = {}
-    groups = [group(name, mistake == "the bend the other way") for name in LIMBS]
     crowd = swivel.Crowd(groups, FEATURES, skeleton=Skeleton(PARENTS, PLACES), body_count=1)
-    for n, values in enumerate(goals):
-        for field, value in zip((Field.TARGET, Field.POLE, Field.HAND), values):
-            crowd.write(field, np.float32([value]), n)
+    for group, (target, pole, hand) in enumerate(goals):
+        for field, value in ((Field.TARGET, target), (Field.POLE, pole), (Field.HAND, hand)):
+            crowd.write(field, np.float32([value]), group)
     given = Pose(pose[np.newaxis].astype(np.float32), out=np.zeros((1, len(NAMES), 4), np.float32), **root)
     crowd.solve(pose=given)
     return crowd.draw(limb=0, pose=given)
@@ -93,19 +95,17 @@ def show(axes, title, names, lines, colors):
     axes.add_collection(LineCollection(flat[~are_points], colors=colors[~are_points] / 255, linewidths=np.array(widths)[~are_points]))
     axes.scatter(*flat[are_points, 0].T, s=60, c=colors[are_points] / 255, zorder=3)
     axes.set(xlim=middle[0] + np.array((-PANEL, PANEL)), ylim=middle[1] + np.array((-PANEL, PANEL)), xticks=[], yticks=[], facecolor=INK)
-    axes.set_title(title)
+    axes.set_title(title, size=13)
 
 
-MISTAKES = ["y and z exchanged", "quaternions w first", "matrices of the other order", "targets from the root", "the bend the other way",
+MISTAKES = ["y and z exchanged", "quaternions w first", "matrices transposed", "targets from the root", "the bend the other way",
             "the root forgotten", "targets in centimetres"]
 
 
-def main():
-    figure, panels = plt.subplots(2, 4, figsize=(16, 8.4), layout="constrained")
-    for axes, mistake in zip(panels.flat, [None, *MISTAKES]):
-        show(axes, mistake or "as it should be", *drawn(mistake))
-    figure.savefig(sys.argv[1], metadata={"Date": None})
-
-
-if __name__ == "__main__":
-    main()
+def mistakes():
+    width, height = 760, 430  # pixels; panels of 180, with a title above each
+    figure = plt.figure(figsize=(width / 72, height / 72))
+    for n, mistake in enumerate([None, *MISTAKES]):
+        left, bottom = 8 + 188 * (n % 4), (222, 8)[n // 4]
+        show(figure.add_axes((left / width, bottom / height, 180 / width, 180 / height)), mistake or "as it should be", *drawn(mistake))
+    return figure

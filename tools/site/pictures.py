@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Draws the pictures of docs/howto that show what swivel does: solves by the Python package, drawn by matplotlib.
+"""Draws the pictures of docs/ that show what swivel does: solves by the Python package, drawn by matplotlib.
 
     PYTHONPATH=build/dev/python tools/site/pictures.py docs/pictures
     PYTHONPATH=build/dev/python tools/site/pictures.py --check docs/pictures   # do the files there show what is drawn now?
@@ -34,18 +34,20 @@ def picture(height, left, bottom, right, top):
 
 
 def seen(svg):
-    """Of each colour, how large its areas are or how long its lines, and where they begin and end, in pixels. And each text with its place."""
+    """For each panel and colour how large areas or how long lines are, and where they begin and end, in pixels. And each text with its place."""
     marks = dict(re.findall(r'<path id="(\w+)" d="([^"]*)"', svg))
-    parts = [(d, (0, 0), style) for d, style in re.findall(r'<path d="([^"]*)"[^>]*style="([^"]*)"', svg)]
-    parts += [(marks[mark], (x, y), style) for mark, x, y, style in re.findall(r'<use xlink:href="#(\w+)" x="([^"]*)" y="([^"]*)" style="([^"]*)"', svg)]
+    parts = []
+    for n, panel in enumerate(svg.split('<g id="axes_')):
+        parts += [(n, d, (0, 0), style) for d, style in re.findall(r'<path d="([^"]*)"[^>]*style="([^"]*)"', panel)]
+        parts += [(n, marks[mark], (x, y), style) for mark, x, y, style in re.findall(r'<use xlink:href="#(\w+)" x="([^"]*)" y="([^"]*)" style="([^"]*)"', panel)]
     found = {}
-    for d, place, style in parts:
+    for panel, d, place, style in parts:
         is_area, colour = "fill: #" in style, "".join(re.findall("#[0-9a-f]{6}", style))
         for curve in d.split("M")[1:] if colour else ():
             points = np.array(re.findall(r"-?[\d.]+(?:e-?\d+)?", curve), float).reshape(-1, 2) + np.array(place, float)
             x, y = np.concatenate((points, points[:1])).T if is_area else points.T
             size = np.sum(x[:-1] * y[1:] - x[1:] * y[:-1]) / 2 if is_area else np.sum(np.hypot(np.diff(x), np.diff(y)))
-            found.setdefault((colour, is_area), []).append((size, x.min(), y.min(), x.max(), y.max()))
+            found.setdefault((panel, colour, is_area), []).append((size, x.min(), y.min(), x.max(), y.max()))
     sizes = {each: (abs(np.sum(rows, axis=0)[0]), *np.min(rows, axis=0)[1:3], *np.max(rows, axis=0)[3:]) for each, rows in found.items()}
     texts = [(words, re.findall(r'[xy]="([-.\d]+)"|translate\(([-.\d]+) ([-.\d]+)\)', tag)) for tag, words in re.findall("<text([^>]*)>([^<]*)", svg)]
     return sizes, [words for words, _ in texts], [float(number) for _, places in texts for place in places for number in place if number]
@@ -264,8 +266,12 @@ def region():
 
 
 def main(folder, is_check):
-    for draw in (feet_plant, feet_break, feet_reach, look_round, region):
-        path, drawn = Path(folder) / f"{draw.__name__}.svg", io.StringIO()
+    import half_line  # here, because both take their style from this file
+    import mistake_pictures
+
+    drawings = {draw.__name__: draw for draw in (feet_plant, feet_break, feet_reach, look_round, region, mistake_pictures.mistakes)}
+    for name, draw in (drawings | {"half_line": half_line.drawn}).items():
+        path, drawn = Path(folder) / f"{name}.svg", io.StringIO()
         draw().savefig(drawn, metadata={"Date": None, "Creator": None})
         if not is_check:
             path.write_text(drawn.getvalue(), encoding="utf-8")

@@ -13,7 +13,7 @@ export const CHOSEN = "#ffd34d";
 export const BOX = "#b08a57";  // that characters carry
 export const HIPS = "#63b5ff";  // the ball that moves them
 export const GROUND = "#8fd16a";  // the one that moves the ground
-export const CONE = "#ff5fa8";  // of the shoulder's limit and of the ball on its rim
+export const CONE = "#ff5fa8";  // the ball on the rim of the shoulder's limit
 
 const RAMP = ["#2c7fb8", "#41b6a6", "#d9e26a", "#f6a03c", "#d7301f"];
 const LIMITED = Object.keys(Flag).filter((name) => name.startsWith("LIMITED_"));
@@ -36,6 +36,8 @@ export const COLOUR_BY = [
 export function rgb(css) {
     return new Color().setStyle(css, "srgb-linear");
 }
+/** The CSS of a colour 0xRRGGBBAA without its opacity. */
+export const cssOf = (color) => `#${(color >>> 8).toString(16).padStart(6, "0")}`;
 export const rampColours = () => RAMP.map(rgb);
 export const flagColours = () => FLAGS.map(([, colour]) => rgb(colour));
 export const flagMasks = () => FLAGS.map(([, , ...flags]) => flags.reduce((word, name) => word | Flag[name], 0));

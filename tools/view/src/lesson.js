@@ -8,7 +8,7 @@ import { button, element, section } from "./dom.js";
 import { DRAW, vectorOf } from "./lesson_draw.js";
 import { COLOURS, STEPS, textOf } from "./lesson_text.js";
 import { clear } from "./marks.js";
-import { geometryOf, wishOf } from "./overlays.js";
+import { geometryOf } from "./overlays.js";
 import { Feature, SwivelError } from "./stage.js";
 import { number, saidOf, typeset } from "./words.js";
 
@@ -31,6 +31,13 @@ function withinReach(wrist, reach) {
 function offLine({ elbow, along, upper }) {
     const off = elbow.clone().addScaledVector(along, -elbow.dot(along));
     return off.length() > 1e-3 * upper ? off : null;
+}
+/** Where the elbow would go by the pole alone, or without one as in the clip, or else where it is: at right angles to the line. */
+function wishOf(stage, { limb, character }, { pole, normal, elbow, along }) {
+    const features = stage.featuresOf(limb), counts = stage.poleCounts(limb, character), isNormal = (features & Feature.POLE_NORMAL) !== 0n;
+    const followsRule = (features & (Feature.POLE_HAND | Feature.POLE_HALF_LINE)) !== 0n;
+    const wish = followsRule ? elbow.clone() : counts && !isNormal ? pole.clone() : (counts ? pole : normal).clone().cross(along);
+    return wish.addScaledVector(along, -wish.dot(along)).normalize();
 }
 /** The pole that gives the solver's elbow: that elbow, or where it would go if the arm is straight. */
 function poleFor(stage, selection, geometry) {

@@ -5,18 +5,21 @@ import { BackSide, BufferGeometry, CylinderGeometry, DoubleSide, Group, Line, Li
 
 import { rgb } from "./colours.js";
 
+const X = new Vector3(1, 0, 0), Y = new Vector3(0, 1, 0);
 export const Z = new Vector3(0, 0, 1);
 const TOP = { depthTest: false, transparent: true };
 
 function surface(colour, opacity) {
     return new MeshBasicMaterial({ color: rgb(colour), transparent: true, opacity, depthWrite: false, side: DoubleSide });
 }
+/** The material of a mesh that is never hidden. */
+function topMaterial(colour) {
+    return new MeshBasicMaterial({ color: rgb(colour), ...TOP, opacity: 0.95 });
+}
 function onTop(mesh) {
     mesh.renderOrder = 15;
     return mesh;
 }
-
-export { surface };
 
 /** A ball that one may drag, with a dark rim that parts it from any background. */
 export function handle(radius, colour) {
@@ -27,23 +30,28 @@ export function handle(radius, colour) {
 }
 /** A ball that is never hidden. */
 export function ball(at, radius, colour) {
-    const made = new Mesh(new SphereGeometry(radius, 20, 14), new MeshBasicMaterial({ color: rgb(colour), ...TOP, opacity: 0.95 }));
+    const made = new Mesh(new SphereGeometry(radius, 20, 14), topMaterial(colour));
     made.position.copy(at);
     return onTop(made);
 }
-/** Three thin rings of a sphere, which hide nothing. */
-export function sphere(centre, radius, colour) {
-    const rings = [0, 1, 2].map(() => new Mesh(new TorusGeometry(radius, 0.004 * radius, 6, 96), surface(colour, 0.8)));
-    rings[1].rotation.x = rings[2].rotation.y = Math.PI / 2;
-    const made = new Group().add(...rings);
+function torus(centre, axis, radius, thickness, material) {
+    const made = new Mesh(new TorusGeometry(radius, thickness, 6, 96), material);
     made.position.copy(centre);
+    made.quaternion.setFromUnitVectors(Z, axis);
     return made;
 }
+/** A ring that is never hidden. axis: of length 1. */
+export function ring(centre, axis, radius, thickness, colour) {
+    return onTop(torus(centre, axis, radius, thickness, topMaterial(colour)));
+}
+/** Three thin rings of a sphere, which hide nothing. */
+export function sphere(centre, radius, colour) {
+    return new Group().add(...[X, Y, Z].map((axis) => torus(centre, axis, radius, 0.004 * radius, surface(colour, 0.8))));
+}
 export function tube(from, to, radius, colour) {
-    const length = from.distanceTo(to), material = new MeshBasicMaterial({ color: rgb(colour), ...TOP, opacity: 0.95 });
-    const made = new Mesh(new CylinderGeometry(radius, radius, length, 8), material);
+    const length = from.distanceTo(to), made = new Mesh(new CylinderGeometry(radius, radius, length, 8), topMaterial(colour));
     made.position.addVectors(from, to).multiplyScalar(0.5);
-    if (length > 0) made.quaternion.setFromUnitVectors(new Vector3(0, 1, 0), to.clone().sub(from).normalize());
+    if (length > 0) made.quaternion.setFromUnitVectors(Y, to.clone().sub(from).normalize());
     return onTop(made);
 }
 /** A thin line that is never hidden. */

@@ -1,74 +1,64 @@
 // SPDX-License-Identifier: MIT
 //
-// What the solver's geometry is for the chosen limb: spheres, their circle, swivel plane, middle line, pole, the arcs
-// that limits allow, and cones of limits. All is drawn relative to the limb's shoulder.
-import { ConeGeometry, Group, Matrix4, Mesh, Vector3 } from "three";
+// The overlays of the chosen limb: the shapes of swivel_draw(), and the geometry of the solution, which are the spheres of both bones, their
+// circle, the swivel plane, the middle line and the wrist's trail. All is drawn relative to the limb's shoulder.
+import { Group, Vector3 } from "three";
 
-import { CONE } from "./colours.js";
+import { CONE, cssOf } from "./colours.js";
 import { checkbox, element, section } from "./dom.js";
-import { clear, dashes, disc, handle, line, sphere, surface, tube } from "./marks.js";
-import { Feature, flagNames } from "./stage.js";
+import { ball, clear, dashes, disc, handle, line, ring, sphere, tube, Z } from "./marks.js";
+import { Feature } from "./stage.js";
 import { saidOf } from "./words.js";
 
-const TRAIL = "#2eb39a", FORBIDDEN = "#e0433b", UNKNOWN = "#98a2b0", HAND_CONE = "#ffb3da";
+const TRAIL = "#2eb39a", CIRCLE = "#98a2b0";
 
-/** name: of the switch and of the group that is drawn. colours: as they are drawn. */
+/**
+ * name: of the switch and of the group that is drawn. An overlay has either colours, in which this file draws it, or shapes, the names by
+ * which swivel_draw() gives it.
+ */
 const OVERLAYS = [
     { name: "spheres", text: "Spheres of both bones", colours: ["#4aa3ff", "#38c6c0"], isOn: true },
-    { name: "circle", text: "Circle of the elbow: allowed, forbidden", colours: ["#43c463", FORBIDDEN], isOn: true },
+    { name: "circle", text: "Circle of the elbow", colours: [CIRCLE], isOn: true },
     { name: "plane", text: "Swivel plane", colours: ["#b48bff"], isOn: true },
     { name: "middle", text: "Middle line", colours: ["#ff8a5c"], isOn: false },
-    { name: "pole", text: "Lines to the pole, the white ball", colours: ["#98a2b0"], isOn: true },
-    { name: "cones", text: "Limit cones: shoulder, hand", colours: [CONE, HAND_CONE], isOn: true },
     { name: "trail", text: "Trail of the wrist, through frames in order", colours: [TRAIL], isOn: false },
+    { name: "goal", text: "Target, effector and miss", shapes: ["target", "goal", "effector", "miss", "prop", "bad_input"], isOn: true },
+    { name: "pole", text: "Line to the pole, or a wished normal", shapes: ["pole", "normal"], isOn: true },
+    { name: "allowed", text: "Elbow without limits, and where they allow it", shapes: ["wish", "allowed"], isOn: true },
+    { name: "limits", text: "Limits: cones and regions", shapes: ["cone", "region"], isOn: true },
+    { name: "ground", text: "Ground, anchor and shift of the body", shapes: ["anchor", "probe", "ground", "shift"], isOn: true },
+    { name: "sight", text: "Line of sight", shapes: ["sight"], isOn: false },
+    { name: "bones", text: "Bones as in the clip and as solved", shapes: ["incoming", "bend", "bone"], isOn: false },
+    { name: "axes", text: "Axes of the root and of the hand's goal", shapes: ["axis_x", "axis_y", "axis_z"], isOn: false },
 ];
 const MAX_TRAIL = 240;  // frames
 
-/** The chosen limb as it is solved: vectors relative to the shoulder as the clavicle moves it, the arm frame's axes, and what arm() has. */
+/**
+ * The chosen limb as it is solved: vectors relative to the shoulder as the clavicle moves it, the arm frame's axes, and what arm() has.
+ * along: the direction of the line that the elbow swivels about, which goes to the wrist, or to the target of a limb that aims. Of length 1.
+ */
 export function geometryOf(stage, { limb, character }) {
     const { shoulder, axes: armAxes, ...arm } = stage.arm(limb, character), { elbows, wrists } = stage.joints(limb, character, 1);
     const place = (numbers) => new Vector3().fromArray(numbers).sub(shoulder), placeOf = (world) => place(stage.fromRoot(character, world));
-    const isPoint = stage.hasPole(limb) && stage.poleIsPoint(limb), wrist = place(wrists);
+    const isPoint = stage.hasPole(limb) && stage.poleIsPoint(limb), wrist = place(wrists), target = placeOf(stage.goal(limb, character, "target"));
+    const way = stage.featuresOf(limb) & Feature.WITH_AIM ? target : wrist;
     return {
-        ...arm, armAxes, elbow: place(elbows), wrist, target: placeOf(stage.goal(limb, character, "target")),
+        ...arm, armAxes, elbow: place(elbows), wrist, target,
         pole: isPoint ? placeOf(stage.goal(limb, character, "pole")) : new Vector3().fromArray(stage.input(limb, character, "pole")),
-        along: wrist.lengthSq() > 0 ? wrist.clone().normalize() : new Vector3(0, 0, 1),
+        along: way.lengthSq() > 0 ? way.clone().normalize() : Z.clone().applyQuaternion(armAxes),
     };
-}
-/** The circle of elbows: its centre on the line from shoulder to wrist, and its radius. */
-function circleOf({ wrist, along, upper, fore }) {
-    const distance = Math.max(wrist.length(), 1e-9), at = (upper ** 2 - fore ** 2 + distance ** 2) / (2 * distance);
-    return { centre: along.clone().multiplyScalar(at), radius: Math.sqrt(Math.max(0, upper ** 2 - at ** 2)) };
-}
-const followsRule = (stage, limb) => (stage.featuresOf(limb) & (Feature.POLE_HAND | Feature.POLE_HALF_LINE)) !== 0n;
-/** Whether it is known where the elbow would go. Where the hand or the wrist's place says it, that is so if the elbow is there. */
-function isWishKnown(stage, { limb, character }) {
-    return !followsRule(stage, limb) || !flagNames(stage.flags(limb, character)).some((name) => /^(LIMITED_(?!FLEXION)|INFEASIBLE)/.test(name));
-}
-/** Where the elbow would go by the pole alone, or without one as in the clip, or else where it is: at right angles to the line. */
-export function wishOf(stage, { limb, character }, { pole, normal, elbow, along }) {
-    const counts = stage.poleCounts(limb, character), isNormal = (stage.featuresOf(limb) & Feature.POLE_NORMAL) !== 0n;
-    const wish = followsRule(stage, limb) ? elbow.clone() : counts && !isNormal ? pole.clone() : (counts ? pole : normal).clone().cross(along);
-    return wish.addScaledVector(along, -wish.dot(along)).normalize();
 }
 
 const draw = {
     spheres(group, { wrist, upper, fore }) {
         group.add(sphere(new Vector3(), upper, "#4aa3ff"), sphere(wrist, fore, "#38c6c0"));
     },
-    circle(group, geometry, { stage, selection, thickness }) {
-        const { centre, radius } = circleOf(geometry), wish = wishOf(stage, selection, geometry);
-        const side = geometry.along.clone().cross(wish), steps = 96;
-        const allowed = allowedAngles(stage.arcs(selection.limb, selection.character)), isKnown = isWishKnown(stage, selection);
-        const colour = (angle) => (!isKnown ? UNKNOWN : allowed(angle) ? "#43c463" : FORBIDDEN);
-        const at = (angle) => centre.clone().addScaledVector(wish, radius * Math.cos(angle)).addScaledVector(side, radius * Math.sin(angle));
-        for (let n = 0; n < steps; ++n) {
-            const from = 2 * Math.PI * n / steps, to = 2 * Math.PI * (n + 1) / steps;
-            group.add(tube(at(from), at(to), thickness, colour((from + to) / 2)));
-        }
+    circle(group, { elbow, along }, { thickness }) {
+        const centre = along.clone().multiplyScalar(elbow.dot(along));
+        group.add(ring(centre, along, centre.distanceTo(elbow), thickness, CIRCLE));
     },
-    plane(group, { elbow, wrist, along }) {
-        const normal = along.clone().cross(elbow), size = 0.75 * Math.max(elbow.length(), wrist.length());
+    plane(group, { elbow, wrist }) {
+        const normal = wrist.clone().cross(elbow), size = 0.75 * Math.max(elbow.length(), wrist.length());
         if (normal.lengthSq() > 0) group.add(disc(wrist.clone().multiplyScalar(0.5), normal, size, "#b48bff"));
     },
     middle(group, { armAxes, upper, elbow }, { thickness }) {
@@ -76,24 +66,16 @@ const draw = {
         if (middle.lengthSq() > 0) middle.setLength(1.3 * upper);
         group.add(tube(new Vector3(), middle, thickness, "#ff8a5c"), dashes(rest, elbow, 0.6 * thickness, "#ff8a5c"));
     },
-    pole(group, { pole, elbow }, { stage, selection, length, thickness }) {
-        if (!stage.hasPole(selection.limb)) return;
-        const end = stage.poleIsPoint(selection.limb) ? pole : pole.clone().setLength(length);
-        group.add(dashes(new Vector3(), end, 0.6 * thickness, "#98a2b0"), dashes(elbow, end, 0.6 * thickness, "#98a2b0"));
-    },
-    cones(group, geometry, { stage, selection, length }) {
-        const cone = stage.field(selection.limb, "SHOULDER_CONE"), hand = stage.field(selection.limb, "HAND_CONE");
-        if (cone) group.add(coneMesh(new Vector3().fromArray(cone).applyQuaternion(geometry.armAxes), cone[3], 0.6 * length, CONE));
-        if (!hand) return;
-        const mesh = coneMesh(geometry.wrist.clone().sub(geometry.elbow).normalize(), hand[3], 0.25 * length, HAND_CONE);
-        mesh.position.copy(geometry.wrist);
-        group.add(mesh);
-    },
-    trail(group, geometry, { stage, selection, trail }) {
-        const shoulder = new Vector3(...stage.shoulder(selection.limb, selection.character));
+    trail(group, geometry, { shoulder, trail }) {
         group.add(line(trail.map((place) => place.clone().sub(shoulder)), TRAIL));
     },
 };
+
+/** A shape of swivel_draw(): a tube for a line, a ball for a point. */
+function markOf({ from, to, color }, { shoulder, thickness }) {
+    const start = new Vector3(...from).sub(shoulder), end = new Vector3(...to).sub(shoulder), colour = cssOf(color);
+    return start.equals(end) ? ball(start, 2 * thickness, colour) : tube(start, end, 0.7 * thickness, colour);
+}
 
 /** Where the wrist of the chosen limb has been in the frames before, one after the other. */
 class Trail {
@@ -107,30 +89,13 @@ class Trail {
     }
 }
 
-function allowedAngles(arcs) {
-    const ends = arcs.map(({ from, to }) => {
-        const start = Math.atan2(from[1], from[0]), end = Math.atan2(to[1], to[0]);
-        return [start, end > start ? end - start : end - start + 2 * Math.PI];
-    });
-    return (angle) => ends.some(([start, width]) => (((angle - start) % (2 * Math.PI)) + 2 * Math.PI) % (2 * Math.PI) <= width);
-}
-/** A cone from its tip along an axis. One that opens wider than a right angle is drawn from the other side. */
-function coneMesh(axis, cos, length, colour) {
-    const angle = Math.acos(Math.min(1, Math.max(-1, cos))), made = new Group();
-    const height = length * Math.cos(angle), radius = Math.max(1e-6, length * Math.sin(angle));
-    const cone = new Mesh(new ConeGeometry(radius, Math.abs(height), 48, 1, true), surface(colour, 0.2));
-    cone.applyMatrix4(new Matrix4().makeTranslation(0, -Math.abs(height) / 2, 0).premultiply(new Matrix4().makeRotationX(height >= 0 ? Math.PI : 0)));
-    made.add(cone);
-    made.quaternion.setFromUnitVectors(new Vector3(0, 1, 0), axis.clone().normalize());
-    return made;
-}
 /** Where the handle on the shoulder cone's rim is: a quarter of the rim from the elbow, mostly away from other handles. */
-function rimOf(geometry, cone, length) {
-    const axis = new Vector3().fromArray(cone).applyQuaternion(geometry.armAxes).normalize(), angle = Math.acos(cone[3]);
-    const across = geometry.elbow.clone().addScaledVector(axis, -geometry.elbow.dot(axis));
+function rimOf({ armAxes, elbow, upper }, cone) {
+    const axis = new Vector3().fromArray(cone).applyQuaternion(armAxes).normalize(), angle = Math.acos(cone[3]);
+    const across = elbow.clone().addScaledVector(axis, -elbow.dot(axis));
     if (across.lengthSq() === 0) across.set(...(Math.abs(axis.x) < 0.9 ? [1, 0, 0] : [0, 1, 0]));
     const aside = across.cross(axis).normalize();
-    return axis.multiplyScalar(0.6 * length * Math.cos(angle)).addScaledVector(aside, 0.6 * length * Math.sin(angle));
+    return axis.multiplyScalar(upper * Math.cos(angle)).addScaledVector(aside, upper * Math.sin(angle));
 }
 
 /** The ball on the rim of the shoulder cone: a drag opens or shuts the cone, so that its rim is at a point of the scene. */
@@ -145,17 +110,31 @@ function makeRim(page) {
     return rim;
 }
 
+const swatch = (colour, name = "") => element("i", { class: "swatch", style: `--swatch: ${colour}`, title: name });
+
 /** A switch for each overlay. */
 function makeSwitches(wanted, change) {
-    return OVERLAYS.map(({ name, text, colours, isOn }) => {
+    return OVERLAYS.map(({ name, text, colours = [], isOn }) => {
         wanted[name] = isOn;
         const row = checkbox(text, isOn, (now) => {
             wanted[name] = now;
             change();
         }, { "data-overlay": name });
-        row.append(...colours.map((colour) => element("i", { class: "swatch", style: `--swatch: ${colour}` })));
+        row.swatches = element("span", { class: "swatches" }, ...colours.map((colour) => swatch(colour)));
+        row.append(row.swatches);
         return row;
     });
+}
+/**
+ * Shows the colours of a switch's shapes, each with its name as a hint. A switch without shapes is hidden while others have some. Swatches stay
+ * while the names do, so that hints can be read while the page plays.
+ */
+function showShapes(row, shapes, othersHaveSome) {
+    row.hidden = othersHaveSome && shapes.length === 0;
+    const colours = new Map(shapes.map(({ name, color }) => [name, cssOf(color)])), names = [...colours.keys()].join();
+    if (row.names === names) return;
+    row.names = names;
+    row.swatches.replaceChildren(...Array.from(colours, ([name, colour]) => swatch(colour, name.replace("_", " "))));
 }
 
 export function makeOverlays(page) {
@@ -169,24 +148,31 @@ export function makeOverlays(page) {
         anchor.visible = page.selection !== null && !isAway;
         Object.values(groups).forEach(clear);
         rim.visible = false;
+        const { selection } = page, drawn = anchor.visible ? stage.shapes(selection.limb, selection.character) : [];
+        const shapesOf = (names) => drawn.filter(({ name }) => names.includes(name));
+        OVERLAYS.forEach(({ shapes }, n) => { if (shapes) showShapes(rows[n], shapesOf(shapes), drawn.length > 0); });
         if (!anchor.visible) return;
-        const { selection } = page, geometry = geometryOf(stage, selection), length = geometry.upper + geometry.fore;
-        anchor.position.fromArray(stage.shoulder(selection.limb, selection.character));
-        const context = { stage, selection, length, thickness: 0.006 * length, trail: trail.points };
-        for (const { name } of OVERLAYS) if (wanted[name]) draw[name](groups[name], geometry, context);
+        const geometry = geometryOf(stage, selection), shoulder = new Vector3(...stage.shoulder(selection.limb, selection.character));
+        anchor.position.copy(shoulder);
+        const thickness = 0.006 * (geometry.upper + geometry.fore), context = { shoulder, thickness, trail: trail.points };
+        for (const { name, shapes } of OVERLAYS) {
+            if (!wanted[name]) continue;
+            if (shapes) shapesOf(shapes).forEach((shape) => groups[name].add(markOf(shape, context)));
+            else draw[name](groups[name], geometry, context);
+        }
         const cone = stage.field(selection.limb, "SHOULDER_CONE");
-        rim.visible = wanted.cones && cone !== undefined;
-        if (rim.visible) rim.position.copy(rimOf(geometry, cone, length));
+        rim.visible = wanted.limits && cone !== undefined;
+        if (rim.visible) rim.position.copy(rimOf(geometry, cone));
     };
+    const rows = makeSwitches(wanted, () => {
+        update();
+        page.redraw();
+    });
     page.on("frame", update);
     page.on("select", update);
     page.on("select", () => {
         const limb = page.selection?.limb ?? stage.limbs[0];
         rows.forEach((row, n) => { row.words.textContent = saidOf(limb, OVERLAYS[n].text); });
-    });
-    const rows = makeSwitches(wanted, () => {
-        update();
-        page.redraw();
     });
     update();
     /** The lesson draws entities of its own. */

@@ -16,6 +16,8 @@ import { dragMound, putMounds } from "./mounds.js";
 
 const KEPT = 64;  // frames from one state that is kept to the next, at least
 const MAX_KEPT = 2 ** 28;  // bytes of them
+const AT_TARGET = ["target", "goal", "axis_x", "axis_y", "axis_z"];  // shapes of a limb's group that are where it is sent
+const MIN_MISS = 1e-4;  // limb lengths: a line as short as this is not seen
 const NO_POLES = Feature.POLE_INCOMING | Feature.POLE_HAND | Feature.POLE_HALF_LINE;
 
 /** The names of a flag word's flags. */
@@ -102,7 +104,10 @@ export class Stage {
         const made = makeCrowd(this.swivel, this.skeleton, this.limbs, this.look?.how, this.characterCount);
         this.crowd?.dispose();
         this.crowd = made;
-        this.poses ??= this.zeros(this.memory.calls.swivel_goal_pose_size(made.crowd) * this.characterCount);
+        const { calls } = this.memory, poseSize = calls.swivel_goal_pose_size(made.crowd);
+        this.poses ??= this.zeros(poseSize * this.characterCount);
+        this.offsetsAt ??= this.memory.allocate(2 * poseSize);  // bytes: half as many words
+        calls.swivel_goals_pose(made.crowd, this.charactersAt, this.rootsAt, this.inputsAt, this.poses.byteOffset, this.offsetsAt, made.posed);
         this.urgency ??= new Float32Array(made.blockCount);  // of a budget
         this.urgency.fill(0);
         this.groups = Array.from({ length: made.groupCount }, (_, group) => group);
@@ -213,10 +218,10 @@ export class Stage {
     askGoals() {
         this.memory.calls.swivel_goals(this.plansAt, this.sourcesAt, this.inputCount, this.frame, ...this.groundAt,
             this.charactersAt, this.characterCount, this.rootsAt, this.inputsAt);
-        for (const { character, limb, pole_weight: poleWeight, target, pole, hand } of this.given.get(this.frame) ?? []) {
-            const of = this.limbs[limb], set = (part, goal) => this.input(of, character, part).set(goal);
+        for (const { character, limb: index, pole_weight: poleWeight, target, pole, hand } of this.given.get(this.frame) ?? []) {
+            const limb = this.limbs[index], set = (part, goal) => this.input(limb, character, part).set(goal);
             set("target", target), set("pole", pole), set("hand", hand);
-            this.input(of, character, "weights").set([of.weights[0], of.weights[1], poleWeight > 0 ? of.weights[2] : 0]);
+            set("weights", [limb.weights[0], limb.weights[1], poleWeight > 0 ? limb.weights[2] : 0]);
         }
     }
     /** The goals of a frame as the user has moved them. Solves nothing: who looks at another frame goes back to the one that is shown. */
@@ -341,7 +346,8 @@ export class Stage {
     field(limb, name) { return fieldOf(limb, name); }
 
     /** Whether a limb of a body on ground has no goal of its own. */
-    goesAlong(limb, character) { return this.ground !== undefined && this.has(limb, "WEIGHTS") && this.input(limb, character, "weights")[0] === 0; }
+    goesAlong(limb, character) { return this.ground !== undefined && !this.targetCounts(limb, character); }
+    targetCounts(limb, character) { return !this.has(limb, "WEIGHTS") || this.input(limb, character, "weights")[0] !== 0; }
 
     /** The results of one limb. */
     read(limb, character, name) { return this.crowd.read(Field[name], { group: limb.index, first: character, count: 1 }); }
@@ -349,10 +355,19 @@ export class Stage {
     explain(limb, character) { return this.crowd.explain(character, limb.index); }
     /** In lengths of the limb; 0 for one whose target does not count. */
     residual(limb, character) {
-        if (this.has(limb, "WEIGHTS") && this.input(limb, character, "weights")[0] === 0) return 0;
+        if (!this.targetCounts(limb, character)) return 0;
         return this.crowd.residuals({ group: limb.index, first: character, count: 1 })[0];
     }
-    arcs(limb, character) { return this.crowd.allowedArcs(character, limb.index); }
+    /**
+     * The shapes of swivel_draw() in the world for a limb and for its body. A target that does not count is left out with its axes. So is a miss that
+     * is too short to be seen. The flag REACHED does not tell: it is about the blend of target and incoming pose, which weights hold off the target.
+     */
+    shapes(limb, character) {
+        const counts = this.targetCounts(limb, character), isMet = this.residual(limb, character) < MIN_MISS;
+        const isShown = ({ name }) => (name === "miss" ? !isMet : counts || !AT_TARGET.includes(name));
+        const isOfBody = ({ group }) => group < 0 || group >= this.limbs.length;  // or its look, or its shift
+        return this.crowd.draw(character).filter((shape) => (shape.group === limb.index ? isShown(shape) : isOfBody(shape)));
+    }
     /** Elbow and wrist from the root: three numbers for each of these characters. */
     joints(limb, first, count) {
         const limbs = { group: limb.index, first, count };

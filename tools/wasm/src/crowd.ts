@@ -28,7 +28,10 @@ export interface SomeBodies {
     count?: number;
 }
 
-/** A line that draw() gives, or a point, whose ends are equal. Its place is in the space of the targets, its colour 0xRRGGBBAA. */
+/**
+ * A line that draw() gives, or a point, whose ends are equal. Bodies: in the world. Free limbs: in the space of their rows, from their origin;
+ * without WORLD in the arm frame. Its colour is 0xRRGGBBAA.
+ */
 export interface Shape {
     /** What it shows, such as "bone" or "miss". */
     name: string;
@@ -50,6 +53,8 @@ type Answer = (group: number, first: number, count: number, out: number) => numb
 
 /** A crowd: the limbs that one call solves. Swivel.crowd() makes it. */
 export class Crowd extends CrowdRows {
+    private maxShapeCount = 0;
+
     /**
      * Solves limbs, and returns how many. It calls no function of yours: with Feature.WITH_GROUND read Field.PROBE after a solve, sample the
      * ground there, and give Field.GROUND and Field.GROUND_NORMAL for the next one.
@@ -170,16 +175,18 @@ export class Crowd extends CrowdRows {
 
     /** What a free limb does, as lines and points. Bodies have a draw() of their own. */
     draw(limb: number, group = 0): Shape[] { return this.shapes(this.one(limb, group).first, group, 0); }
+    /** There is room for as many shapes as any call before has drawn. A call that draws more is made again. */
     protected shapes(limb: number, group: number, pose: number): Shape[] {
-        const { memory } = this, { bytes, name, color, group: groupOf } = layout.swivel_shape;
+        const { memory, maxShapeCount: capacity } = this, { bytes, name, color, group: groupOf } = layout.swivel_shape;
         return memory.borrow((borrowed) => {
-            const count = borrowed.bytes(4);
-            const fill = (at: number, capacity: number): void =>
-                memory.check(memory.calls.swivel_draw(this.crowd, group, limb, pose, at, capacity, count));
-            fill(0, 0);
-            const [capacity] = memory.words(count, 1), at = borrowed.bytes(bytes * capacity);
-            fill(at, capacity);
-            return Array.from({ length: capacity }, (_, n): Shape => {
+            const count = borrowed.bytes(4), at = borrowed.bytes(bytes * capacity);
+            memory.check(memory.calls.swivel_draw(this.crowd, group, limb, pose, at, capacity, count));
+            const [length] = memory.words(count, 1);
+            if (length > capacity) {
+                this.maxShapeCount = length;
+                return this.shapes(limb, group, pose);
+            }
+            return Array.from({ length }, (_, n): Shape => {
                 const shape = at + bytes * n, word = (member: number): number => memory.words(shape + member, 1)[0];
                 const [a, b, c, d, e, f] = memory.doubles(shape, 6);
                 return { name: memory.text(word(name)), from: [a, b, c], to: [d, e, f], color: word(color), group: word(groupOf) | 0 };
