@@ -135,9 +135,10 @@ PlainContacts contacts_in_table(const std::string& csv, std::size_t frame_count)
 PlainSkating plain_skating(const PlainLegs& legs, const PlainContacts& contacts)
 {
     PlainSkating skating;
-    double way = 0, frames = 0, steps = 0;
+    double way = 0, begun_way = 0, frames = 0, steps = 0;
     for (std::size_t side = 0; side < 2; ++side) {
         const PlainLegPath& leg = legs.legs[side];
+        bool is_begun = false;
         const auto bend = [&](std::size_t n) {
             const Vector3d thigh = leg.knee[n] - leg.hip[n], shin = leg.ankle[n] - leg.knee[n];
             return std::atan2(thigh.cross(shin).norm(), thigh.dot(shin)) * 180 / std::numbers::pi;
@@ -148,12 +149,16 @@ PlainSkating plain_skating(const PlainLegs& legs, const PlainContacts& contacts)
             if (n > 1)
                 skating.jump =
                     std::max(skating.jump, (step - (leg.toe[n - 1] - leg.toe[n - 2])).norm() / legs.frame_time);
-            if (contacts[side][n] && !contacts[side][n - 1]) ++steps;
+            if (contacts[side][n] && !contacts[side][n - 1]) {
+                ++steps;
+                is_begun = true;
+            }
             if (!contacts[side][n] || !contacts[side][n - 1]) continue;
             const double slide = std::hypot(step.x(), step.z());
             skating.max = std::max(skating.max, slide / legs.frame_time);
             skating.sink = std::max(skating.sink, std::abs(step.y()));
             way += slide;
+            if (is_begun) begun_way += slide;
             ++frames;
         }
     }
@@ -162,6 +167,7 @@ PlainSkating plain_skating(const PlainLegs& legs, const PlainContacts& contacts)
                                      (legs.body[n - 2] - 2 * legs.body[n - 1] + legs.body[n]).norm() / legs.frame_time);
     skating.mean = way / (frames * legs.frame_time);
     skating.step = way / steps;
+    skating.begun_step = begun_way / steps;
     return skating;
 }
 

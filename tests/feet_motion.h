@@ -67,7 +67,8 @@ PlainContacts contacts_in_table(const std::string& csv, std::size_t frame_count)
 // In lengths of the file a second, in lengths, in degrees: between two frames of contact.
 struct PlainSkating {
     double mean = 0, max = 0, step = 0, knee = 0, jump = 0, body_jump = 0;
-    double sink = 0;  // the most that a toe in contact goes up or down in a frame
+    double begun_step = 0;  // as step, of contacts that begin after frame 0 alone
+    double sink = 0;        // the most that a toe in contact goes up or down in a frame
 };
 PlainSkating plain_skating(const PlainLegs& legs, const PlainContacts& contacts);
 

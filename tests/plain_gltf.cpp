@@ -69,7 +69,11 @@ const std::vector<double>& plain_numbers(const PlainGltf& gltf, int index)
     const auto& view = gltf.json.at("bufferViews").at(accessor.at("bufferView").get<std::size_t>());
     const std::string& bytes = gltf.buffers.at(view.at("buffer").get<std::size_t>());
     const std::string type = accessor.at("type");
-    const std::size_t width = type == "SCALAR" ? 1 : type == "VEC3" ? 3 : 4, count = accessor.at("count");
+    const std::size_t width = type == "SCALAR" ? 1
+                              : type == "VEC3" ? 3
+                              : type == "MAT4" ? 16
+                                               : 4,
+                      count = accessor.at("count");
     const std::size_t begin = view.value("byteOffset", 0u) + accessor.value("byteOffset", 0u);
     const std::size_t stride = view.value("byteStride", 4 * width);
     REQUIRE(begin + (count - 1) * stride + 4 * width <= bytes.size());

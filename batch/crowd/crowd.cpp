@@ -151,8 +151,8 @@ void place_group(const GroupDef& def, std::uint32_t first_block, char* rows, Gro
     group.keeps_pose = def.on_bad_input == SWIVEL_KEEP_POSE;
     for (std::size_t pass = 0; pass < kPassCount; ++pass)
         group.stages[pass] = StageList(def.features, static_cast<Pass>(pass));
-    group.shoulder_order = def.shoulder_order;
-    group.wrist_order = def.wrist_order;
+    group.shoulder_order = static_cast<swivel_euler_order>(def.shoulder_order);
+    group.wrist_order = static_cast<swivel_euler_order>(def.wrist_order);
     group.input_row_count = input_row_count(def.features);
     group.result_row_count = result_row_count(def.features);
     for (std::size_t f = 0; f < kFieldCount; ++f)

@@ -140,14 +140,13 @@ swivel_status check_group(std::uint32_t g, const GroupDef& group)
 {
     if (group.limb_count == 0) return refuse("group %u has no limbs; give at least one", g);
     if (const swivel_status status = check_features(g, group.asked, group.features); status != SWIVEL_OK) return status;
-    const std::uint32_t on_bad_input = number_of(group.on_bad_input);
-    if (on_bad_input > SWIVEL_KEEP_POSE)
-        return refuse("group %u: on_bad_input is %u; it is SWIVEL_REST_POSE or SWIVEL_KEEP_POSE", g, on_bad_input);
+    if (group.on_bad_input > SWIVEL_KEEP_POSE)
+        return refuse("group %u: on_bad_input is %u; it is SWIVEL_REST_POSE or SWIVEL_KEEP_POSE", g,
+                      group.on_bad_input);
     for (const auto& [order, name] :
          {std::pair{group.shoulder_order, "shoulder_order"}, std::pair{group.wrist_order, "wrist_order"}})
-        if (static_cast<unsigned>(order) > SWIVEL_ZYX)
-            return refuse("group %u: %s is %d; it is one of SWIVEL_XYZ to SWIVEL_ZYX", g, name,
-                          static_cast<int>(order));
+        if (order > SWIVEL_ZYX)
+            return refuse("group %u: %s is %u; it is one of SWIVEL_XYZ to SWIVEL_ZYX", g, name, order);
     if (const swivel_status status = check_group_region(g, group); status != SWIVEL_OK) return status;
     if (group.features & SWIVEL_JOINTS)
         if (const swivel_status status = check_binding(g, group.binding, twist_bone_count(group.features));

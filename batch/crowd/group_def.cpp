@@ -29,9 +29,9 @@ void take_limb(const Limb& limb, GroupDef& group)
 {
     group.asked = limb.features;
     group.features |= limb.features & kPublicFeatures;
-    group.on_bad_input = limb.on_bad_input;
-    group.shoulder_order = limb.shoulder_order;
-    group.wrist_order = limb.wrist_order;
+    group.on_bad_input = number_of(limb.on_bad_input);
+    group.shoulder_order = number_of(limb.shoulder_order);
+    group.wrist_order = number_of(limb.wrist_order);
     group.region = limb.region;
     std::copy(std::begin(limb.pole_behind), std::end(limb.pole_behind), group.pole_behind);
 }

@@ -15,8 +15,7 @@ struct GroupDef {
     swivel_features asked;     // by the caller
     swivel_features features;  // these, those that they bring, and the library's own bits
     std::uint32_t limb_count;
-    swivel_on_bad_input on_bad_input;
-    swivel_euler_order shoulder_order, wrist_order;
+    std::uint32_t on_bad_input, shoulder_order, wrist_order;  // as numbers, since callers may give any
     const swivel_region* region;
     float pole_behind[3];
     swivel_binding binding;            // of free limbs, as given

@@ -67,6 +67,7 @@ template <class Struct>
 Struct element(const Struct* array, std::size_t n, Struct otherwise)
 {
     const std::size_t size = size_of(array);
+    if (size == 0) return otherwise;
     std::memcpy(&otherwise, reinterpret_cast<const char*>(array) + n * size, std::min(size, sizeof otherwise));
     otherwise.size = sizeof otherwise;
     return otherwise;

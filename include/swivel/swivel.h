@@ -198,7 +198,7 @@ typedef enum swivel_field {
     SWIVEL_FLAGS,              // 1: bits of swivel_flag, as uint32_t
     SWIVEL_STRETCH,            // 1, WITH_REACH: the factor for both bone lengths
     SWIVEL_NORMAL,             // 3, WITH_MAX_SWIVEL: of the swivel plane, from which the next solve steps
-    SWIVEL_TWIST_BONES,        // 4 a bone: bone i of n turns by i / (n + 1) of the hand's twist, which jumps at 180 deg
+    SWIVEL_TWIST_BONES,        // 4 a bone: bone i of n takes i / (n + 1) of the hand's twist, +-180 degrees
     SWIVEL_CLAVICLE_ROTATION,  // 4, WITH_CLAVICLE: new rotation = old * this
     SWIVEL_RECORD,             // 22: shoulder, arm frame, scale, lengths and incoming rotations
     SWIVEL_PLANT,              // 11: the anchor, the offset that fades, its state
@@ -585,8 +585,8 @@ SWIVEL_API size_t swivel_state_bytes(const swivel_crowd* crowd);
 SWIVEL_API swivel_status swivel_save(const swivel_crowd* crowd, uint32_t first_body, uint32_t body_count, void* bytes,
                                      size_t size);
 // Loads what swivel_save() saved of any bodies, of this crowd or of one whose groups carry the same fields; nothing if
-// any bytes are of another kind of crowd. Inputs and other results stay, so results that a body keeps because of bad
-// input differ from the saved crowd's until its next good solve.
+// any bytes are of another kind of crowd. Inputs and other results stay: those that a body keeps because of bad input
+// are not the saved crowd's until its next good solve.
 SWIVEL_API swivel_status swivel_load(swivel_crowd* crowd, uint32_t first_body, uint32_t body_count, const void* bytes,
                                      size_t size);
 // swivel_reset() of all groups of these bodies. In their next solve feet land where animated, and looks and shifts are

@@ -30,7 +30,7 @@ SWIVEL_API swivel_status swivel_compare(const swivel_crowd* crowd, uint32_t grou
 typedef enum swivel_shape_kind {
     SWIVEL_SHAPE_BONE,       // white: as solved, between joints that limbs and looks need, and from the root
     SWIVEL_SHAPE_INCOMING,   // grey: bones as they came; by a record, after looks
-    SWIVEL_SHAPE_BEND,       // salmon: from the elbow as it came, after looks, to where flexion carries the forearm
+    SWIVEL_SHAPE_BEND,       // salmon: from the elbow as it came to where flexion carries the forearm
     SWIVEL_SHAPE_AXIS_X,     // red; these three: how a root, wanted hand or prop is turned
     SWIVEL_SHAPE_AXIS_Y,     // green
     SWIVEL_SHAPE_AXIS_Z,     // blue
@@ -38,14 +38,14 @@ typedef enum swivel_shape_kind {
     SWIVEL_SHAPE_GOAL,       // orange: where a plant or grip sends its limb
     SWIVEL_SHAPE_MISS,       // red: from the wrist or effector to where it should be
     SWIVEL_SHAPE_EFFECTOR,   // light grey: from the wrist
-    SWIVEL_SHAPE_POLE,       // magenta: from the elbow to its pole or along it; from the shoulder along pole_behind
+    SWIVEL_SHAPE_POLE,       // magenta: from the elbow to or along its pole; from the shoulder along pole_behind
     SWIVEL_SHAPE_NORMAL,     // violet: the wished normal of the swivel plane
     SWIVEL_SHAPE_WISH,       // pink: the elbow without limits
     SWIVEL_SHAPE_ALLOWED,    // light green: arcs where limits allow the elbow
     SWIVEL_SHAPE_CONE,       // cyan: a limit of the upper arm or hand
     SWIVEL_SHAPE_REGION,     // teal: the border of the upper arm's region
     SWIVEL_SHAPE_ANCHOR,     // gold: a locked point, and a circle of unlock_radius
-    SWIVEL_SHAPE_PROBE,      // sky blue: where ground is sampled, and the way to the sample
+    SWIVEL_SHAPE_PROBE,      // sky blue: where ground is sampled, and the way there
     SWIVEL_SHAPE_GROUND,     // brown: a square of the plane below a foot, and its normal
     SWIVEL_SHAPE_SIGHT,      // lime: a line of sight, or an aiming hand's ray
     SWIVEL_SHAPE_SHIFT,      // purple: of the root
@@ -58,15 +58,14 @@ typedef enum swivel_shape_kind {
 typedef struct swivel_shape {
     // Bodies: in the world. Free limbs: in the space of their rows, from their origin; without WORLD in the arm frame.
     double from[3], to[3];
-    const char* name;  // of its kind, such as "bone"; a constant
+    const char* name;  // such as "bone"; a constant
     swivel_shape_kind kind;
     uint32_t color;  // 0xRRGGBBAA
     uint32_t group;  // SWIVEL_EVERY_GROUP: of the body itself
 } swivel_shape;
 
-// Draws a free limb, or a body with one of its groups or SWIVEL_EVERY_GROUP, as lines and points for a debug renderer.
-// Arcs are lines of at most 10 degrees. Shapes that are not finite are left out. It allocates nothing, and threads may
-// draw one crowd together.
+// Draws a free limb, or a body with one or all of its groups, as lines and points for a debug renderer. Shapes that
+// are not finite are left out. It allocates nothing, and threads may draw together.
 //
 // pose: of a body, the last solve's, which took all its groups, with the root as it went in. After swivel_load() solve
 // first: all but what is carried is from before. Bones as they came need results apart from rotations, or WITH_RECORD,

@@ -129,6 +129,8 @@ TEST_CASE("Metadata that no store writes is refused, whatever its digest")
         {"chunk_characters is 0", [](CachedCrowd& crowd) { crowd.chunk.characters = 0; }},
         {"chunk_characters is no multiple of 16", [](CachedCrowd& crowd) { crowd.chunk.characters = 17; }},
         {"clip_frames is 0", [](CachedCrowd& crowd) { crowd.clip_frames = 0; }},
+        {"a name is empty, or it holds a comma",
+         [](CachedCrowd& crowd) { crowd.names.assign(crowd.character_count, "Anna\n"); }},
         {"a joint comes before its parent", [](CachedCrowd& crowd) { crowd.joints[1].parent = 77; }},
         {"a limb's joints are not three",
          [](CachedCrowd& crowd) {

@@ -215,7 +215,8 @@ TEST_CASE("every frame, character and limb is in order, on the grid, and posed a
         }
     }
     std::erase_if(rows, [](const PoseLine& row) { return row.limb != "left_arm"; });
-    for (const nlohmann::json& any : stage.json("[crowd]\n", {"--characters", "50"}).at("each_character"))
+    const nlohmann::json fifty = stage.json("[crowd]\n", {"--characters", "50"});
+    for (const nlohmann::json& any : fifty.at("each_character"))
         CHECK((any.at("size") >= 0.85 && any.at("size") <= 1.15));
     const nlohmann::json each = stage.json(toml).at("each_character");
     REQUIRE(each.size() == 6);

@@ -43,20 +43,27 @@ heights = "hills.png"
 size = [900, 60, 900]
 contacts = "contacts.csv"
 """
+AGENTS = """name,x,y,z,heading_deg,start,clip,size,build
+Anna,0,0,0,90,0,0,1,0
+Ben,2,0,-3,-45,9,0,0.95,0
+"""
 OPTIONS = ("--clip=0", "--fps=30", "--rest=3", "--up=y", "--arm=left:a,b,c", "--leg=right:#1,#2,#3", "--head=target:Head", "--limbs=legs", "--characters=3",
            "--seed=7", "--frames=9", "--speed=1", "--height=0.1", "--ground=hills.png", "--ground-size=900,60,900", "--between=linear", "--force", "--chunk=2,2",
            "--targets=targets.csv", "--contacts=contacts.csv", "--map=map.csv", "--threads=1")
 TRIES = [  # the words of a command line; those that name an output begin with out
     *(("rig", clip, "--joints") for clip in ("clip.bvh", "along_x.bvh", "figure.glb")),
     *(("retarget", source, target, "--out", f"out{Path(target).suffix}") for source in ("clip.bvh", "along_x.bvh", "figure.glb") for target in ("clip.bvh", "along_x.bvh", "figure.glb")),
-    ("inspect", "figure.glb", "--fps", "60"),
+    ("inspect", "figure.glb", "--fps", "60"), ("inspect", "clip.bvh", "along_x.bvh"),
     ("retarget", "clip.bvh", "figure.glb", "--map", "map.csv", "--out", "out.glb"),
+    ("retarget", "clip.bvh", "along_x.bvh", "figure.glb", "--root-motion", "--out", "out"),
+    ("feet", "clip.bvh", "--root-motion", "--travel", "--out", "out.bvh"),
     ("feet", "clip.bvh", "--out", "out.bvh", "--export-contacts", "out.csv"), ("feet", "figure.glb", "--contacts", "contacts.csv", "--out", "out.glb"),
     ("feet", "along_x.bvh", "figure.glb", "--out", "out"),
     ("feet", "figure.glb", "--ground", "hills.png", "--ground-size", "9,1,9", "--out", "out.glb"),
     ("solve", "clip.bvh", "--crowd", "crowd.toml", "--out", "out.csv", "--export-targets", "out_targets.csv"), ("solve", "clip.bvh", "--targets", "targets.csv", "--out", "out.bvh"),
-    ("solve", "figure.glb", "--crowd", "crowd.toml", "--out", "out.glb"), ("solve", "along_x.bvh", "--characters", "3", "--out", "out.csv"),
-    ("solve", "along_x.bvh", "--view", "out.html"), ("view", "figure.glb", "--crowd", "crowd.toml", "--out", "out.html"), ("store", "along_x.bvh", "out", "--crowd", "crowd.toml"),
+    ("solve", "figure.glb", "--crowd", "crowd.toml", "--out", "out.glb"), ("solve", "figure.glb", "--crowd", "agents.toml", "--out", "out.glb"),
+    ("solve", "along_x.bvh", "--characters", "3", "--out", "out.csv"), ("solve", "along_x.bvh", "--view", "out.html"),
+    ("view", "figure.glb", "--crowd", "crowd.toml", "--out", "out.html"), ("store", "along_x.bvh", "out", "--crowd", "crowd.toml"),
 ]
 
 
@@ -67,6 +74,8 @@ def make_inputs(folder, program):
     shutil.copy(FIGURE, folder)
     shutil.copy(HILLS, folder)
     (folder / "crowd.toml").write_text(TOML)
+    (folder / "agents.toml").write_text('[crowd]\nlimbs = "all"\nagents = "agents.csv"\n')
+    (folder / "agents.csv").write_text(AGENTS)
     (folder / "targets.csv").write_text("frame,character,limb,x,y,z\n0,0,left_arm,4,12,3\n6,0,right_leg,-1,1,1\n")
     for words in (("feet", "clip.bvh", "--export-contacts", "contacts.csv"), ("retarget", "clip.bvh", "figure.glb", "--export-map", "map.csv", "--out", "o.glb")):
         subprocess.run([program, *words, "--quiet"], cwd=folder, check=True)
@@ -80,6 +89,7 @@ class Maker:
         self.choose, self.words, self.said = random.Random(seed), list(words), []
         named = [folder / word for word in words if (folder / word).is_file()]
         named += [folder / more for more in ("hills.png", "contacts.csv") if "crowd.toml" in words]
+        named += [folder / "agents.csv"] if "agents.toml" in words else []
         if self.choose.random() < 0.2:
             self.options()
             return
@@ -211,7 +221,8 @@ class Hostile(Stage):
         changed = sorted(name for name in {*before, *after} if before.get(name, b"") != after.get(name, b""))
         if code not in (0, 1, 2):
             faults.append(f"exit code {code}: {complaint[-300:]}")
-        several = complaint.endswith(b" clips failed\n")  # feet goes on to the next, and says one line for each
+        # Where one of several clips fails, the command goes on to the next. Each that fails has a line.
+        several = complaint.endswith((b" clips failed\n", b" clips failed or are garbage\n"))
         if code == 1 and not several and not (complaint.startswith(b"swivel: ") and complaint.count(b"\n") == 1 and len(complaint) < 2000):
             faults.append(f"says {complaint[:300]} ... {complaint[-100:]}, {complaint.count(10)} lines")
         if used > MEMORY:

@@ -22,6 +22,7 @@ ONE = ("--threads", "1")
 LINES = [
     ("--version",), ("slove",), ("help", "solve"), ("info", "--json"),
     ("rig", "clip.bvh", "--joints"), ("rig", "clip.bvh", "--json", "--joints"), ("rig", "table.csv"),
+    ("inspect", "clip.bvh", "--json"),
     ("solve", "clip.bvh", "--crowd", "crowd.toml", "--out", "o.csv", "--view", "v.html", "--export-targets", "t.csv", *ONE),
     ("solve", "clip.bvh", "--targets", "table.csv", "--out", "o.bvh", "--json", *ONE),
     ("view", "clip.bvh", "--characters", "3", *ONE), ("view", "full", *ONE), ("lab", "steps", "--json"),

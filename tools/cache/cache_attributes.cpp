@@ -296,6 +296,8 @@ void require_sane(const CachedCrowd& crowd)
         throw std::invalid_argument("there are no limbs, or too many");
     if (!crowd.names.empty() && crowd.names.size() != crowd.character_count)
         throw std::invalid_argument("the names are not as many as the characters");
+    if (!std::ranges::all_of(crowd.names, formats::is_plain_name))
+        throw std::invalid_argument("a name is empty, or it holds a comma, a quote or a control character");
     const auto joint_count = static_cast<int>(crowd.joints.size());
     for (int n = 0; n < joint_count; ++n)
         if (const int parent = crowd.joints[static_cast<std::size_t>(n)].parent; parent < -1 || parent >= n)

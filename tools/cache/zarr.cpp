@@ -118,10 +118,14 @@ void ZarrStore::write_array(const ZarrArray& array) const
 void ZarrStore::write_attributes(const Json& attributes) const
 {
     const std::string text = text_of(attributes);
-    if (text.size() > kMaxAttributes)
-        throw InputError(folder(), fmt::format("its attributes would take {} bytes, more than {}; take a skeleton with "
-                                               "fewer joints, or shorter names",
-                                               text.size(), kMaxAttributes));
+    if (text.size() > kMaxAttributes) {
+        const bool has_long_names = 2 * text_of(attributes.value("names", Json::array())).size() > text.size();
+        throw InputError(
+            folder(),
+            fmt::format("its attributes would take {} bytes, more than {}; take {}, or shorter names", text.size(),
+                        kMaxAttributes,
+                        has_long_names ? "fewer agents, whose names they hold" : "a skeleton with fewer joints"));
+    }
     folder_.write(kAttributes, text);
 }
 

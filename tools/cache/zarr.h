@@ -74,7 +74,7 @@ private:
     PlainFolder folder_;
 };
 
-constexpr std::size_t kMaxAttributes = std::size_t{4} << 20;  // bytes: 50,000 joints; as JSON they take 100 MiB
+constexpr std::size_t kMaxAttributes = std::size_t{4} << 20;  // bytes: 50,000 joints or names; 100 MiB as JSON
 // The attributes of the store in a folder. Throws InputError if they are missing, too long or no JSON.
 nlohmann::ordered_json attributes_in(const PlainFolder& folder);
 

@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <memory>
 
+#include "tools/cli/command_error.h"
 #include "tools/cli/option_checks.h"
 #include "tools/cli/streams.h"
 #include "tools/formats/suggestion.h"
@@ -55,6 +57,11 @@ std::string repeated_option(const CLI::App& command)
     return {};
 }
 
+std::string no_command(const std::string& wrong, const std::vector<std::string>& known)
+{
+    return fmt::format("there is no command '{}'; {}", wrong, formats::suggestion(wrong, known));
+}
+
 // What is wrong with words that nobody takes; empty: there is none.
 std::string unknown_words(const CLI::App& app)
 {
@@ -62,7 +69,7 @@ std::string unknown_words(const CLI::App& app)
     for (const CLI::App* command = &used; command; command = command->get_parent()) {
         const std::vector<std::string> words = command->remaining(), commands = command_names(*command);
         if (command == &used && !commands.empty() && !words.empty() && !words[0].starts_with('-'))
-            return fmt::format("there is no command '{}'; {}", words[0], formats::suggestion(words[0], commands));
+            return no_command(words[0], commands);
         const auto option = std::ranges::find_if(words, [](const auto& word) { return word.starts_with('-'); });
         if (option != words.end()) {
             const std::string bare = option->substr(0, option->find('='));
@@ -78,12 +85,24 @@ std::string unknown_words(const CLI::App& app)
 void add_help(CLI::App& app)
 {
     CLI::App* command = app.add_subcommand("help", "Print help on the whole or on a command, as COMMAND --help does");
-    auto name = std::make_shared<std::string>();
-    takes(command->add_option("COMMAND", *name, "On which command"), one_of(command_names(app)))->option_text(" ");
-    command->callback([&app, name] {
-        say_text(stdout, name->empty()
-                             ? app.get_formatter()->make_help(&app, app.get_name(), CLI::AppFormatMode::Normal)
-                             : app.get_subcommand(*name)->help(app.get_name()));
+    auto names = std::make_shared<std::array<std::string, 2>>();
+    takes(command->add_option("COMMAND", (*names)[0], "On which command"), one_of(command_names(app)))
+        ->option_text(" ");
+    command->add_option("PART", (*names)[1], "On which command of lab")->option_text(" ");
+    command->callback([&app, names] {
+        if ((*names)[0].empty()) {
+            say_text(stdout, app.get_formatter()->make_help(&app, app.get_name(), CLI::AppFormatMode::Normal));
+            return;
+        }
+        const CLI::App* about = app.get_subcommand((*names)[0]);
+        if (const std::string& part = (*names)[1]; !part.empty()) {
+            const std::vector<std::string> parts = command_names(*about);
+            if (parts.empty())
+                throw CommandError(2, fmt::format("'{}' is one word too many; {}", part, help_of(*about)));
+            if (std::ranges::find(parts, part) == parts.end()) throw CommandError(2, no_command(part, parts));
+            about = about->get_subcommand(part);
+        }
+        say_text(stdout, about->help(words_of(*about->get_parent())));
     });
 }
 

@@ -38,7 +38,7 @@ LimbInClip limb_in(const Limb& limb, const ChainPose& pose, const JointPose& par
 
 // The middle of the arms' shoulders, or else of the legs' hips: floats are finest there. In the joints' order, so that
 // that of the limbs does not matter.
-Vector3d root_of(std::span<const Limb> limbs, std::span<const JointPose> pose_w)
+Vector3d limbs_root(std::span<const Limb> limbs, std::span<const JointPose> pose_w)
 {
     Vector3d sum = Vector3d::Zero();
     double count = 0;
@@ -104,7 +104,7 @@ ClipMotion::ClipMotion(const formats::Clip& clip, std::span<const Limb> limbs, c
     std::vector<JointPose> pose_w(clip.joints.size());
     for (std::size_t frame = 0; frame < clip.frame_count; ++frame) {
         formats::world_pose(clip, frame, pose_w);
-        Vector3d root = root_of(limbs, pose_w);
+        Vector3d root = limbs_root(limbs, pose_w);
         if (plan.ground) root.y() = plan.foot.y();  // lifts of feet are counted from it
         for (std::size_t n = 0; n < limbs.size(); ++n) {
             const Limb& limb = limbs[n];

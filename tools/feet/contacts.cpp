@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "tools/formats/error.h"
@@ -100,7 +101,7 @@ std::optional<Slide> slide_of(const LegMotion& motion, const ContactBars& bars)
 {
     Vector3d way = Vector3d::Zero();
     double path = 0, beside_body = 0;
-    double frames = 0;
+    std::array<std::vector<double>, 3> steps;
     const std::vector<std::vector<bool>> low = low_frames(motion, bars);
     for (std::size_t n = 0; n < low.size(); ++n) {
         const std::vector<Vector3d>& toe_w = motion.legs[n].toe_w;
@@ -110,7 +111,7 @@ std::optional<Slide> slide_of(const LegMotion& motion, const ContactBars& bars)
                 way += step;
                 path += step.norm();
                 beside_body += (step - motion.level(motion.carrier_w[frame] - motion.carrier_w[frame - 1])).norm();
-                ++frames;
+                for (int axis = 0; axis < 3; ++axis) steps[static_cast<std::size_t>(axis)].push_back(step[axis]);
             }
     }
     Eigen::AlignedBox3d room;
@@ -118,7 +119,8 @@ std::optional<Slide> slide_of(const LegMotion& motion, const ContactBars& bars)
     if (way.norm() <= motion.leg_length() / 2) return std::nullopt;
     const bool with_body = beside_body < path / 2;
     if (!with_body && way.norm() <= 2 * room.diagonal().norm()) return std::nullopt;
-    return Slide{way / (frames * motion.frame_time), with_body};
+    const Vector3d step(quantile(steps[0], 0.5), quantile(steps[1], 0.5), quantile(steps[2], 0.5));
+    return Slide{step / motion.frame_time, with_body};
 }
 
 std::vector<formats::ContactRow> rows_of(const LegMotion& motion, const Contacts& contacts)

@@ -28,8 +28,9 @@ Contacts find_contacts(const LegMotion& motion, const ContactBars& bars);
 
 // The slide of low feet, by more than half a leg in the clip.
 struct Slide {
-    Eigen::Vector3d velocity_w;  // of the feet, in lengths of the clip a second
-    bool with_body;              // the feet slide with the body; else the clip walks in place
+    // Of most frames, in lengths of the clip a second: the median, since low feet that swing go the other way.
+    Eigen::Vector3d velocity_w;
+    bool with_body;  // the feet slide with the body; else the clip walks in place
 };
 
 // Nothing for feet that stand. Feet slide with the body if their path relative to it is less than half of their path in

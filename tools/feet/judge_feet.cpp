@@ -37,9 +37,10 @@ double knee_turn_deg(const LegPath& leg, std::size_t frame)
 Skating skating_of(const LegMotion& motion, const Contacts& contacts, const Floor& floor)
 {
     Skating max;
-    double way = 0, steps = 0, times = 0;
+    double way = 0, times = 0, contact_count = 0;
+    double begun_way = 0, begun_count = 0;  // of contacts that begin within the clip
     Peak drift, off_ground;
-    const auto raise = [](double& value, double to) { value = std::max(value, to); };
+    const auto raise = [](double& value, double candidate) { value = std::max(value, candidate); };
     for (std::size_t n = 0; n < motion.legs.size(); ++n) {
         const LegPath& leg = motion.legs[n];
         const std::vector<Vector3d>& toe_w = leg.toe_w;
@@ -48,7 +49,9 @@ Skating skating_of(const LegMotion& motion, const Contacts& contacts, const Floo
             raise(max.tip_depth, leg.tip_rise - floor.over(leg.tip_w[frame]));
         raise(max.jump, largest_jump(toe_w) / motion.frame_time);
         for (const Contact& contact : contacts_of(contacts[n])) {
-            if (contact.first > 0) ++steps;
+            const bool is_begun = contact.first > 0;
+            ++contact_count;
+            if (is_begun) ++begun_count;
             for (std::size_t frame = contact.first; frame < contact.end; ++frame) {
                 off_ground.raise(frame, std::abs(floor.over(toe_w[frame])));
                 drift.raise(frame, motion.level(toe_w[frame] - toe_w[contact.first]).norm());
@@ -56,6 +59,7 @@ Skating skating_of(const LegMotion& motion, const Contacts& contacts, const Floo
                 const double slide = motion.level(toe_w[frame] - toe_w[frame - 1]).norm();
                 raise(max.max_speed, slide / motion.frame_time);
                 way += slide;
+                if (is_begun) begun_way += slide;
                 times += motion.frame_time;
             }
         }
@@ -64,7 +68,7 @@ Skating skating_of(const LegMotion& motion, const Contacts& contacts, const Floo
     max.off_ground = off_ground.value, max.off_ground_frame = off_ground.frame;
     max.body_jump = largest_jump(motion.carrier_w) / motion.frame_time;
     max.mean_speed = times > 0 ? way / times : 0;
-    max.step = way / std::max(steps, 1.0);
+    max.step = begun_count > 0 ? begun_way / begun_count : way / std::max(contact_count, 1.0);
     for (double* const length : {&max.mean_speed, &max.max_speed, &max.step, &max.drift, &max.off_ground,
                                  &max.tip_depth, &max.jump, &max.body_jump})
         *length /= motion.leg_length();

@@ -13,7 +13,8 @@ namespace swivel::tools {
 // How much feet skate, and the cost of preventing it. Lengths are in leg lengths.
 struct Skating {
     double mean_speed = 0, max_speed = 0;  // of toes in contact over the ground, a second
-    double step = 0;        // the path of a toe over the ground in a step's contact that begins within the clip
+    double step = 0;        // the mean path of a toe over the ground in a contact that begins within the clip; in any
+                            // contact if none does
     double drift = 0;       // the max distance of a toe over the ground from its contact's start
     double off_ground = 0;  // the max distance of a toe in contact from its standing height
     double tip_depth = 0;   // the max depth of toes' tips below their standing height

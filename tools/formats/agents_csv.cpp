@@ -19,30 +19,28 @@
 namespace swivel::formats {
 namespace {
 
-struct Column {
+struct AgentColumn {
     const char* name;
     double Agent::*number;  // null: the name
     double min, max;
     bool is_whole, is_needed;
 };
-constexpr Column kColumns[] = {{"name", nullptr, 0, 0, false, true},
-                               {"x", &Agent::x, -kMaxNorm, kMaxNorm, false, true},
-                               {"y", &Agent::y, -kMaxNorm, kMaxNorm, false, true},
-                               {"z", &Agent::z, -kMaxNorm, kMaxNorm, false, true},
-                               {"heading_deg", &Agent::heading_deg, -360, 360, false, false},
-                               {"start", &Agent::start, 0, 1e9, true, false},
-                               {"clip", &Agent::clip, 0, 1e9, true, false},
-                               {"size", &Agent::size, 0.01, 100, false, false},
-                               {"build", &Agent::build, 0, 1e9, true, false}};
+constexpr AgentColumn kAgentColumns[] = {{"name", nullptr, 0, 0, false, true},
+                                         {"x", &Agent::x, -kMaxNorm, kMaxNorm, false, true},
+                                         {"y", &Agent::y, -kMaxNorm, kMaxNorm, false, true},
+                                         {"z", &Agent::z, -kMaxNorm, kMaxNorm, false, true},
+                                         {"heading_deg", &Agent::heading_deg, -360, 360, false, false},
+                                         {"start", &Agent::start, 0, 1e9, true, false},
+                                         {"clip", &Agent::clip, 0, 1e9, true, false},
+                                         {"size", &Agent::size, 0.01, 100, false, false},
+                                         {"build", &Agent::build, 0, 1e9, true, false}};
 
 // What is wrong with a cell, which the agent takes; empty: nothing.
-std::string take(const Column& column, std::string_view cell, Agent& agent)
+std::string take(const AgentColumn& column, std::string_view cell, Agent& agent)
 {
     if (!column.number) {
         agent.name = cell;
-        const bool is_name =
-            !cell.empty() && cell.find_first_of(",\"") == cell.npos && printable(cell, cell.npos) == cell;
-        return is_name ? "" : "is no name; give one without commas and quotes";
+        return is_plain_name(cell) ? "" : "is no name; give one in UTF-8 without commas and quotes";
     }
     const std::optional<double> number = parse_number(cell);
     const bool fits = number && *number >= column.min && *number <= column.max;
@@ -54,20 +52,20 @@ std::string take(const Column& column, std::string_view cell, Agent& agent)
 }
 
 // The columns that the first line names.
-std::vector<Column> columns_of(const std::filesystem::path& path, std::size_t line,
-                               const std::vector<std::string_view>& cells)
+std::vector<AgentColumn> columns_named(const std::filesystem::path& path, std::size_t line,
+                                       const std::vector<std::string_view>& cells)
 {
     const auto refuse = [&](const std::string& cause) { throw InputError(path, line, cause); };
     std::vector<std::string> known;
-    for (const Column& each : kColumns) known.emplace_back(each.name);
-    std::vector<Column> columns;
+    for (const AgentColumn& each : kAgentColumns) known.emplace_back(each.name);
+    std::vector<AgentColumn> columns;
     for (const std::string_view cell : cells) {
-        const auto found = std::ranges::find(kColumns, cell, &Column::name);
-        if (found == std::end(kColumns))
+        const auto found = std::ranges::find(kAgentColumns, cell, &AgentColumn::name);
+        if (found == std::end(kAgentColumns))
             refuse(fmt::format("there is no column '{}'; {}", printable(cell), suggestion(cell, known)));
         columns.push_back(*found);
     }
-    for (const Column& each : kColumns) {
+    for (const AgentColumn& each : kAgentColumns) {
         const auto count = std::ranges::count(cells, each.name);
         if (count > 1) refuse(fmt::format("column {} is there twice; remove one", each.name));
         if (count == 0 && each.is_needed)
@@ -81,12 +79,12 @@ std::vector<Column> columns_of(const std::filesystem::path& path, std::size_t li
 std::vector<Agent> read_agents_csv(const std::filesystem::path& path)
 {
     std::vector<Agent> agents;
-    std::vector<Column> columns;
+    std::vector<AgentColumn> columns;
     std::map<std::string, std::size_t> lines;  // of each name
     for_each_row(path, [&](std::size_t line, const std::vector<std::string_view>& cells) {
         const auto refuse = [&](const std::string& cause) { throw InputError(path, line, cause); };
         if (columns.empty()) {
-            columns = columns_of(path, line, cells);
+            columns = columns_named(path, line, cells);
             return;
         }
         if (cells.size() != columns.size())

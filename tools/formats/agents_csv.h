@@ -23,7 +23,7 @@ struct Agent {
 // Reads all rows, in order. Throws InputError that names the line, for
 // - a first line that lacks a column, repeats one or has another;
 // - a row with more or fewer cells, and a cell that is empty or out of its range;
-// - a name that another row has, or that a cell of a written table cannot hold.
+// - a name that another row has, or that is_plain_name() refuses.
 std::vector<Agent> read_agents_csv(const std::filesystem::path& path);
 
 }  // namespace swivel::formats

@@ -216,22 +216,23 @@ BvhFile with_joint_above(const BvhFile& file, int joint, std::string_view name)
 std::vector<double> values_at(const BvhFile& file, double time, const std::vector<double>& before)
 {
     const auto from = std::min(static_cast<std::size_t>(time), file.clip.frame_count - 1);
-    const std::size_t to = std::min(from + 1, file.clip.frame_count - 1), joints = file.joints.size();
+    const std::size_t next = std::min(from + 1, file.clip.frame_count - 1), joints = file.joints.size();
     const double share = time - static_cast<double>(from);
     std::vector<double> values = values_of(file, from);
-    const std::vector<double> next = values_of(file, to);
+    const std::vector<double> next_values = values_of(file, next);
     for (std::size_t joint = 0; joint < joints; ++joint) {
         std::vector<std::size_t> angles;  // their places in the line
         for (std::size_t c = 0; c < file.joints[joint].channels.size(); ++c) {
             const std::size_t at = file.joints[joint].first_channel + c;
             const bool is_angle = !is_position(file.joints[joint].channels[c]);
             if (is_angle) angles.push_back(at);
-            values[at] += share * (is_angle ? std::remainder(next[at] - values[at], 360) : next[at] - values[at]);
+            const double change = next_values[at] - values[at];
+            values[at] += share * (is_angle ? std::remainder(change, 360) : change);
         }
         const std::vector<int> axes = rotation_axes(file.joints[joint]);
         if (axes.size() != 3 || !are_different(axes)) continue;  // they cannot give the joint any rotation
         const Eigen::Quaterniond turn =
-            file.clip.rotation[from * joints + joint].slerp(share, file.clip.rotation[to * joints + joint]);
+            file.clip.rotation[from * joints + joint].slerp(share, file.clip.rotation[next * joints + joint]);
         const Eigen::Vector3d near_deg(before[angles[0]], before[angles[1]], before[angles[2]]);
         const Eigen::Vector3d angles_deg = nearest_euler(turn.normalized(), {axes[0], axes[1], axes[2]}, near_deg);
         for (std::size_t n = 0; n < 3; ++n) values[angles[n]] = angles_deg[static_cast<Eigen::Index>(n)];
@@ -259,6 +260,7 @@ BvhFile at_rate(const BvhFile& file, double rate)
         text += '\n';
     }
     BvhFile resampled = bvh_of(file.path, std::move(text));
+    resampled.frames_line = file.frames_line;
     resampled.surplus_count = file.surplus_count, resampled.announced_count = file.announced_count;
     return resampled;
 }
@@ -268,7 +270,9 @@ void require_can_key(const BvhFile& file, int joint) { axes_of(file, joint); }
 void write_bvh(const std::filesystem::path& path, const BvhFile& file, std::span<const JointKeys> keys,
                const std::optional<NewFrames>& frames, const std::optional<NewJoint>& above)
 {
-    if (above) {  // takes the number of the joint below it, and that one and all later ones the next
+    if (above) {
+        make_plan(file, keys);  // refuses a joint that cannot take its keys, by the line of the file that was read
+        // The new joint takes the number of the joint below it, and that one and all later ones the next.
         std::vector<JointKeys> all{{above->below, above->rotation, above->translation}};
         for (const JointKeys& each : keys)
             all.push_back({each.joint < above->below ? each.joint : each.joint + 1, each.rotation, each.translation});

@@ -216,18 +216,20 @@ GltfBuffers read_gltf_buffers(const fs::path& path, const nlohmann::json& docume
 }
 
 std::vector<double> read_accessor(const GltfData& data, int index, std::size_t width, std::size_t expected,
-                                  const std::string& owner)
+                                  bool is_skin)
 {
+    const std::string owner = is_skin ? "a skin" : "an animation";
     const Json& at = element(data.path, list_in(data.document, "accessors"), index, (owner + "'s accessor").c_str());
     const bool has_view = at.contains("bufferView");
     const std::size_t count = at.at("count");
     if (at.at("type") != accessor_type(width))
         refuse(data, fmt::format("accessor {} of {} has the wrong type", index, owner));
-    if (expected > 0 && count != expected)
-        refuse(data, fmt::format("accessor {} and its times have different numbers of keys: {} elements, {} are needed",
-                                 index, count, expected));
+    const bool may_be_more = is_skin && has_view;
+    if (expected > 0 && (count < expected || (count > expected && !may_be_more)))
+        refuse(data, fmt::format("accessor {} and {} have different numbers of {}: {} elements, {} are needed", index,
+                                 is_skin ? "its skin" : "its times", is_skin ? "joints" : "keys", count, expected));
     if (expected == 0 && !has_view)
-        refuse(data, fmt::format("accessor {} of {}'s times has no buffer view", index, owner));
+        refuse(data, fmt::format("accessor {} of an animation's times has no buffer view", index));
     if (count == 0 || count > std::size_t{1} << 28)
         refuse(data, fmt::format("accessor {} of {} has {} keys", index, owner, count));
     std::vector<double> values(has_view ? 0 : count * width);

@@ -39,11 +39,12 @@ struct GltfData {
 
 // The components of an accessor, element after element. Normalised integers become the numbers that they stand for.
 // width: see accessor_type(). expected: how many elements there must be, so that no file makes more room than its keys
-// need. 0: any number, but they must then be bytes of the file. Throws InputError for
-// - an accessor that does not exist, or has another type or count; it is the owner's, for messages;
+// need. 0: any number, but they must then be bytes of the file. is_skin: it is a skin's instead of an animation's, and
+// may have more elements, if they are bytes of the file. Throws InputError for
+// - an accessor that does not exist, or has another type or count;
 // - one that reads beyond its buffer view;
 // - numbers that are not finite.
 std::vector<double> read_accessor(const GltfData& data, int index, std::size_t width, std::size_t expected,
-                                  const std::string& owner = "an animation");
+                                  bool is_skin = false);
 
 }  // namespace swivel::formats

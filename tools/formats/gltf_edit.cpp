@@ -267,8 +267,8 @@ void add_node(GltfAsset& asset, const GltfData& read, const GltfChanges::NewNode
         if (joints == skin.end() || std::find(joints->begin(), joints->end(), Json(added.below)) == joints->end())
             continue;
         if (const auto binds = skin.find("inverseBindMatrices"); binds != skin.end()) {
-            std::vector<double> matrices = read_accessor(read, binds->get<int>(), 16, 0, "a skin");
-            matrices.resize(16 * joints->size());
+            std::vector<double> matrices = read_accessor(read, binds->get<int>(), 16, joints->size(), true);
+            matrices.resize(16 * joints->size());  // a skin may have more of them than joints
             const auto added_bind = added.inverse_bind.reshaped();
             matrices.insert(matrices.end(), added_bind.begin(), added_bind.end());
             *binds = add_floats(asset, std::vector<float>(matrices.begin(), matrices.end()), 16);

@@ -34,6 +34,19 @@ bool is_obeyed(unsigned code)
            (code >= 0x202A && code <= 0x202E) || (code >= 0x2066 && code <= 0x2069);
 }
 
+// A byte that begins no character, an overlong form, half of a UTF-16 pair and a number beyond Unicode are no UTF-8.
+bool is_utf8(std::string_view text)
+{
+    constexpr unsigned kLeastCodes[] = {0, 0, 0x80, 0x800, 0x10000};  // by size
+    while (!text.empty()) {
+        const auto [code, size] = first_character(text);
+        if (code < kLeastCodes[size] || code > 0x10FFFF || (code >= 0xD800 && code <= 0xDFFF)) return false;
+        if (size == 1 && code >= 0x80) return false;
+        text.remove_prefix(size);
+    }
+    return true;
+}
+
 }  // namespace
 
 std::string_view take_printable(std::string_view& rest, EscapeRoom& room) noexcept
@@ -56,6 +69,12 @@ std::string printable(std::string_view text, std::size_t max)
     EscapeRoom room;
     for (; !text.empty() && max > 0; --max) out += take_printable(text, room);
     return text.empty() ? out : out + "...";
+}
+
+bool is_plain_name(std::string_view name)
+{
+    return !name.empty() && name.find_first_of(",\"") == name.npos && is_utf8(name) &&
+           printable(name, name.npos) == name;
 }
 
 std::string printable_lines(std::string_view text)

@@ -22,6 +22,10 @@ std::string_view take_printable(std::string_view& rest, EscapeRoom& room) noexce
 // `text` for a message of one line, cut to `max` characters and "...".
 std::string printable(std::string_view text, std::size_t max = 40);
 
+// Whether all tables and all JSON can hold a name as it is: not empty, UTF-8, without commas, quotes and what
+// printable() makes an escape.
+bool is_plain_name(std::string_view name);
+
 // `text` with its line ends kept.
 std::string printable_lines(std::string_view text);
 

@@ -114,7 +114,7 @@ public:
     {
         for (const formats::Joint& joint : clip.joints) ++bearers_[joint.name];
     }
-    std::string of(int joint) const
+    std::string cell_of(int joint) const
     {
         const std::string& name = joint_at(clip_, joint).name;
         // A name with a slash may be the path of another joint, and one that begins with # the number.
@@ -178,12 +178,12 @@ void write_joint_map(const std::filesystem::path& path, const JointPairs& pairs,
     };
     for (const PairedPart& part : pairs)
         for (std::size_t n = 0; n < std::max(part.source.size(), part.target.size()); ++n)
-            write(part.name, n < part.source.size() ? from_cells.of(part.source[n]) : "",
-                  n < part.target.size() ? to_cells.of(part.target[n]) : "");
+            write(part.name, n < part.source.size() ? from_cells.cell_of(part.source[n]) : "",
+                  n < part.target.size() ? to_cells.cell_of(part.target[n]) : "");
     for (const int joint : bones_outside(joints_in(pairs, BodySide::source, false), source))
-        write("", from_cells.of(joint), "");
+        write("", from_cells.cell_of(joint), "");
     for (const int joint : bones_outside(joints_in(pairs, BodySide::target, false), target))
-        if (can_key(joint)) write("", "", to_cells.of(joint));
+        if (can_key(joint)) write("", "", to_cells.cell_of(joint));
     out.commit();
 }
 

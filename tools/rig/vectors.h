@@ -46,9 +46,9 @@ struct Peak {
     std::size_t frame = 0;
     double value = 0;
 
-    void raise(std::size_t at, double to)
+    void raise(std::size_t at, double candidate)
     {
-        if (to > value) *this = {at, to};
+        if (candidate > value) *this = {at, candidate};
     }
 };
 

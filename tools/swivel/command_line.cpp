@@ -98,8 +98,8 @@ void add_feet(CLI::App& app)
                      "Move the root of a clip that walks in place, at an even speed, against the slide of its feet");
     add_root_motion(command, options.root_motion);
     command.add_flag("--force", options.force,
-                     "Write a clip of a folder that is judged to be garbage, too. Without it such a clip is not "
-                     "written, and the command fails");
+                     "Write a clip that is judged to be garbage, too. Without it such a clip is not written, and the "
+                     "command fails");
     add_file_option(command, "--contacts", options.contacts,
                     "When feet are on the ground, instead of finding it: a CSV file with the columns "
                     "frame,limb,contact. limb is left_leg or right_leg, contact is on or off from that frame on");
@@ -323,10 +323,11 @@ void add_info(CLI::App& app)
 std::vector<const char*> words_of(int argc, const char* const* argv)
 {
     std::vector<const char*> words(argv, argv + argc);
-    const std::string_view word = argc > 1 ? argv[1] : "";
+    const int at = argc > 2 && std::string_view(argv[1]) == "help" ? 2 : 1;
+    const std::string_view word = argc > at ? argv[at] : "";
     if (word == "steps" || word == "verify" || word == "bench") {
         say(stderr, "swivel: swivel {0} is now swivel lab {0}; the next version no longer knows the old word\n", word);
-        words.insert(words.begin() + 1, "lab");
+        words.insert(words.begin() + at, "lab");
     }
     return words;
 }

@@ -97,7 +97,7 @@ struct FeetOptions {
     double speed = 0.8, height = 0.085;  // see ContactBars
     bool travel = false;                 // moves the root of a clip that walks in place
     bool root_motion = false;
-    bool force = false;  // also writes clips into a folder that are garbage
+    bool force = false;  // also writes clips that are garbage
     bool quiet = false, json = false;
 };
 void run_feet(const FeetOptions& options);

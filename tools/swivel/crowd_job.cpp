@@ -346,13 +346,10 @@ CrowdJob make_job(const SolveOptions& options, LimbChoice choice, MotionFile& fi
     job.plan.foot = foot_of(clip, parts.empty() ? clip.frame_count : parts[last].first + parts[last].count);
     job.plan.clips = std::move(parts);
     job.plan.agents = placed_agents(agents, clip, job, options.frames);
-    const bool is_turned = (agents.empty() && job.plan.has_headings()) ||
-                           std::ranges::any_of(agents, [](const auto& agent) { return agent.heading_deg != 0; });
-    if (is_turned && up_w != Eigen::Vector3d::UnitY())
-        throw formats::InputError(
-            job.crowd->path,
-            "crowd: characters turn about Y, and the figure does not stand along it; turn the clip, or take agents and "
-            "heading_deg out");
+    if (job.plan.has_headings() && up_w != Eigen::Vector3d::UnitY())
+        throw formats::InputError(job.crowd->path,
+                                  "crowd: agents and headings need Y up, and the figure does not stand along Y; turn "
+                                  "the clip, or take agents and heading_deg out");
     if (job.crowd && job.crowd->ground) {
         stand_on_ground(*job.crowd, clip, job.limbs, {search.facing.up_w, carrier_of(clip, joints)},
                         {job.loops.empty() ? 0 : job.loops[0].loop.first, job.clip_frames}, job.plan);

@@ -39,6 +39,7 @@ struct FeetRun {
     ContactBars bars;
     std::vector<Limb> legs{};
     std::vector<LimbFinding> missing{};
+    std::vector<BodyPart> body{};
     LegMotion motion{};
     Contacts contacts{};
     Floor floor{};
@@ -47,6 +48,7 @@ struct FeetRun {
     Skating before{}, after{};
     std::vector<FeetDoubt> doubts{};
     std::vector<ClipDoubt> clip_doubts{};  // of FILE itself
+    std::vector<std::string> garbage{};    // of the clip with its new legs
     std::optional<Vector3d> travel_w{};    // by which --travel moves the root, a second
 };
 
@@ -93,47 +95,64 @@ Json doubt_json(const FeetRun& run, const FeetDoubt& doubt)
     return out;
 }
 
+// What stands out. Garbage of FILE is told as that of the clip with its new legs, unless that has none.
+std::vector<std::string> look_texts(const FeetRun& run)
+{
+    std::vector<std::string> texts;
+    for (const ClipDoubt& doubt : run.clip_doubts)
+        if (!doubt.is_garbage || run.garbage.empty()) texts.push_back("FILE: " + doubt.text);
+    for (const FeetDoubt& doubt : run.doubts) texts.push_back(doubt_text(run, doubt));
+    return texts;
+}
+
 double share_on(const std::vector<bool>& contact)
 {
     return static_cast<double>(std::ranges::count(contact, true)) / static_cast<double>(contact.size());
 }
 
-void print_feet(std::FILE* to, const FeetOptions& options, const FeetRun& run)
+// Whether the clip with its new legs is garbage, and so nothing is written.
+bool is_refused(const FeetOptions& options, const FeetRun& run) { return !options.force && !run.garbage.empty(); }
+
+void print_feet(std::FILE* reports, const FeetOptions& options, const FeetRun& run)
 {
     const formats::Clip& clip = run.file.clip();
-    print_motion_file(to, run.name, run.file, clip.frame_count);
+    print_motion_file(reports, run.name, run.file, clip.frame_count);
     const auto shown = [&](int joint) { return printable_name(joint_at(clip, joint)); };
     for (std::size_t n = 0; n < run.legs.size(); ++n) {
         const Limb& leg = run.legs[n];
         const LegPath& path = run.motion.legs[n];
-        say(to, "leg      {:<5} {} > {} > {}, {:.4g} long; {}; in contact {}, {:.0f} % of the frames\n",
+        say(reports, "leg      {:<5} {} > {} > {}, {:.4g} long; {}; in contact {}, {:.0f} % of the frames\n",
             side_name(leg.name.side), shown(leg.upper()), shown(leg.lower()), shown(leg.end()), path.length,
             path.has_toe ? shown(path.toe) + " stands" : "without a toe joint its ankle stands",
             counted(contacts_of(run.contacts[n]).size(), "time"), 100 * share_on(run.contacts[n]));
     }
-    print_missing(to, run.missing);
+    print_missing(reports, run.missing);
     if (options.contacts.empty())
-        say(to,
+        say(reports,
             "contact  slower than {:g} leg lengths a second and lower than {:g} over its floor, in most frames of a "
             "twelfth of a second\n",
             run.bars.speed, run.bars.height);
     else
-        say(to, "contact  as {} says\n", shown_file(options.contacts));
+        say(reports, "contact  as {} says\n", shown_file(options.contacts));
     if (run.floor.hills)
-        say(to, "ground   {}, {} x {} pixels; the clip's own floor is level, its feet stand at {:.4g}\n",
+        say(reports, "ground   {}, {} x {} pixels; the clip's own floor is level, its feet stand at {:.4g}\n",
             shown_file(options.ground), run.floor.hills->grid.columns, run.floor.hills->grid.rows, run.floor.level);
     else
-        say(to, "ground   level, feet stand at {:.4g}\n", run.floor.level);
-    say(to, "body     moved by {}\n", shown(run.motion.carrier));
-    if (run.travel_w) say(to, "travel   {} a second, as it walks in place\n", vector_text(*run.travel_w));
-    say(to, "{:<35}{:>9}{:>10}\n", "", "before", "after");
+        say(reports, "ground   level, feet stand at {:.4g}\n", run.floor.level);
+    say(reports, "body     moved by {}\n", shown(run.motion.carrier));
+    if (options.travel)
+        say(reports, "travel   {}\n",
+            run.travel_w ? vector_text(*run.travel_w) + " a second, as it walks in place"
+                         : "none: it does not walk in place");
+    say(reports, "{:<35}{:>9}{:>10}\n", "", "before", "after");
     for (const Measure& each : kMeasures)
-        say(to, "{:<35}{:>9.4f}{:>10.4f}  {}\n", each.words, run.before.*each.value, run.after.*each.value, each.unit);
-    say(to, "{:<35}{:>9}{:>10.4f}  leg lengths, {:.4f} down\n", "the body is moved by, most", "", run.body_moved,
+        say(reports, "{:<35}{:>9.4f}{:>10.4f}  {}\n", each.words, run.before.*each.value, run.after.*each.value,
+            each.unit);
+    say(reports, "{:<35}{:>9}{:>10.4f}  leg lengths, {:.4f} down\n", "the body is moved by, most", "", run.body_moved,
         run.body_lowered);
-    for (const ClipDoubt& doubt : run.clip_doubts) say(to, "look     FILE: {}\n", doubt.text);
-    for (const FeetDoubt& doubt : run.doubts) say(to, "look     {}\n", doubt_text(run, doubt));
-    print_written(to, {run.out, options.export_contacts});
+    for (const std::string& text : look_texts(run)) say(reports, "look     {}\n", text);
+    for (const std::string& text : run.garbage) say(reports, "garbage  {}\n", text);
+    print_written(reports, {run.out, is_refused(options, run) ? "" : options.export_contacts});
 }
 
 Json json_of(const FeetOptions& options, const FeetRun& run)
@@ -164,17 +183,20 @@ Json json_of(const FeetOptions& options, const FeetRun& run)
     if (run.floor.hills) out["ground"] = options.ground;
     out["floor"] = run.floor.level;
     out["body"] = name(run.motion.carrier);
-    if (run.travel_w) out["travel"] = *run.travel_w;
+    if (options.travel) out["travel"] = run.travel_w ? Json(*run.travel_w) : Json();
     for (const Measure& each : kMeasures) {
         out["before"][each.key] = run.before.*each.value;
         out["after"][each.key] = run.after.*each.value;
     }
     out["after"]["body_moved_max"] = run.body_moved;
     out["after"]["body_moved_down_max"] = run.body_lowered;
-    for (const FeetDoubt& doubt : run.doubts) out["look"].push_back(doubt_json(run, doubt));
-    if (!run.clip_doubts.empty()) out["doubts"] = texts_of(run.clip_doubts);
+    for (const FeetDoubt& doubt : run.doubts) out["doubts"].push_back(doubt_json(run, doubt));
+    const std::vector<std::string> look = look_texts(run);
+    out["verdict"] = verdict_word(!look.empty(), !run.garbage.empty());
+    out["look"] = look;
+    out["garbage"] = run.garbage;
     if (!run.out.empty()) out["out"] = run.out;
-    if (!options.export_contacts.empty()) out["export_contacts"] = options.export_contacts;
+    if (!options.export_contacts.empty() && !is_refused(options, run)) out["export_contacts"] = options.export_contacts;
     return out;
 }
 
@@ -197,7 +219,7 @@ std::optional<Ground> read_ground(const FeetOptions& options)
     return Ground{{{size[0], size[1], size[2]}, {0, 0, 0}, picture.columns, picture.rows}, std::move(picture.heights)};
 }
 
-// Moves the root of a clip that walks in place, evenly, so that its feet do not slide in the mean.
+// Moves the root of a clip that walks in place, evenly, so that its feet mostly do not slide.
 void travel(FeetRun& run)
 {
     const auto slide = slide_of(run.motion, run.bars);
@@ -238,8 +260,9 @@ void bind_legs(const FeetOptions& options, FeetRun& run)
         if (!finding.limb) run.missing.push_back(std::move(finding));
     const int carrier = carrier_of(clip, figure);
     if (carrier < 0) throw InputError(run.name, "no joint is above both legs; the body cannot be moved");
+    run.body = std::move(search.body);
     run.motion = leg_motion(clip, run.legs, carrier, search.facing.up_w);
-    run.clip_doubts = clip_doubts({clip, search.body});
+    run.clip_doubts = clip_doubts({clip, run.body});
 }
 
 Contacts choose_contacts(const FeetOptions& options, const FeetRun& run)
@@ -252,33 +275,17 @@ Contacts choose_contacts(const FeetOptions& options, const FeetRun& run)
         throw InputError(
             run.name,
             slide->with_body
-                ? fmt::format("it glides, and does not walk: its feet slide with the body, by {:.2g} leg lengths a "
-                              "second in the mean; say by --contacts when feet stand",
+                ? fmt::format("it glides, and does not walk: its feet slide with the body, by about {:.2g} leg lengths "
+                              "a second; say by --contacts when feet stand",
                               speed)
-                : fmt::format("it walks in place: on the ground its feet slide by {:.2g} leg lengths a second in the "
-                              "mean, and its body ends near where it began; {}say by --contacts when feet stand",
+                : fmt::format("it walks in place: on the ground its feet slide by about {:.2g} leg lengths a second, "
+                              "and its body ends near where it began; {}say by --contacts when feet stand",
                               speed,
                               run.travel_w ? ""
                                            : fmt::format("give --travel, which moves its root by {} a second, or ",
                                                          vector_text(Vector3d(-slide->velocity_w)))));
     }
     return find_contacts(run.motion, run.bars);
-}
-
-// Whether the clip is garbage that may not go into a folder.
-bool is_refused(const FeetOptions& options, const FeetRun& run)
-{
-    return !options.force && is_to_folder(options.out, options.files.size()) &&
-           std::ranges::any_of(run.clip_doubts, &ClipDoubt::is_garbage);
-}
-
-FileOutcome outcome_of(const FeetOptions& options, const FeetRun& run)
-{
-    FileOutcome outcome{run.name, run.out, {}, {}, is_refused(options, run)};
-    for (const ClipDoubt& doubt : run.clip_doubts)
-        (doubt.is_garbage ? outcome.garbage : outcome.look).push_back("FILE: " + doubt.text);
-    for (const FeetDoubt& doubt : run.doubts) outcome.look.push_back(doubt_text(run, doubt));
-    return outcome;
 }
 
 // The body, for --root-motion. root: of root_joint().
@@ -300,6 +307,7 @@ void run_clip(const FeetOptions& options, const Ground* hills, FeetRun& run)
     const formats::Clip& clip = run.file.clip();
     std::optional<int> root;
     if (options.root_motion) root = root_joint(clip, run.motion.carrier, run.name);  // refuses before the work
+    const LegMotion motion_in_file = run.motion;
     if (options.travel) travel(run);
     run.contacts = choose_contacts(options, run);
     if (std::ranges::none_of(run.contacts, [](const std::vector<bool>& leg) { return std::ranges::count(leg, true); }))
@@ -314,7 +322,7 @@ void run_clip(const FeetOptions& options, const Ground* hills, FeetRun& run)
         run.body_lowered = std::max(run.body_lowered, -shift_w.dot(run.motion.up_w) / run.motion.leg_length());
     }
     std::vector<TurnedJoint> joints = turn_legs(clip, run.legs, run.motion, run.placed, run.name);
-    run.before = skating_of(run.motion, run.contacts, {run.motion.up_w, run.floor.level, nullptr});
+    run.before = skating_of(motion_in_file, run.contacts, {run.motion.up_w, run.floor.level, nullptr});
     const auto motion_of = [&](const formats::Clip& moved) {
         return leg_motion(moved, run.legs, run.motion.carrier, run.motion.up_w);
     };
@@ -329,7 +337,12 @@ void run_clip(const FeetOptions& options, const Ground* hills, FeetRun& run)
     const LegMotion after = motion_of(moved);
     run.after = skating_of(after, run.contacts, run.floor);
     run.doubts = feet_doubts(after, run.motion, run.before, run.contacts, run.bars, run.floor);
-    if (is_refused(options, run)) run.out.clear();
+    for (ClipDoubt& doubt : clip_doubts({moved, run.body}))
+        if (doubt.is_garbage) run.garbage.push_back(std::move(doubt.text));
+    if (is_refused(options, run)) {
+        run.out.clear();
+        return;
+    }
     if (!run.out.empty())
         write_joints(run.out, run.file, moved, std::move(joints), {},
                      root ? std::optional(moved_body(run, *root)) : std::nullopt);
@@ -349,26 +362,27 @@ void run_feet(const FeetOptions& options)
     std::vector<std::string> outputs = outputs_of(options.files, options.out);
     outputs.push_back(options.export_contacts);
     require_own_outputs(outputs, read);
-    std::FILE* const to = report_stream(outputs);
-    std::FILE* const reports = options.json || options.quiet ? nullptr : to;
+    std::FILE* const stream = report_stream(outputs);
+    std::FILE* const reports = options.json || options.quiet ? nullptr : stream;
     const bool to_folder = is_to_folder(options.out, options.files.size());
 
-    Json json = Json::array();
+    const auto work = [&](std::size_t n, Json& clips) {
+        FeetRun run{options.files[n],
+                    outputs[n],
+                    MotionFile(options.files[n], options.motion),
+                    {options.speed, options.height}};
+        if (!run.out.empty()) run.file.require_can_write(run.out);
+        require_not_beside(std::array{run.out, options.export_contacts}, run.file);
+        run_clip(options, hills ? &*hills : nullptr, run);
+        if (options.json) clips.push_back(json_of(options, run));
+        if (reports && !to_folder) print_feet(reports, options, run);
+        return FileOutcome{run.name, run.out, look_texts(run), run.garbage, is_refused(options, run)};
+    };
     const std::vector<FileOutcome> outcomes =
-        run_files(options.files, {options.out, options.quiet, reports}, [&](std::size_t n) {
-            FeetRun run{options.files[n],
-                        outputs[n],
-                        MotionFile(options.files[n], options.motion),
-                        {options.speed, options.height}};
-            if (!run.out.empty()) run.file.require_can_write(run.out);
-            require_not_beside(std::array{run.out, options.export_contacts}, run.file);
-            run_clip(options, hills ? &*hills : nullptr, run);
-            if (options.json) json.push_back(json_of(options, run));
-            if (reports && !to_folder) print_feet(reports, options, run);
-            return outcome_of(options, run);
-        });
-    if (options.json) print_json({{"clips", json}}, to);
-    require_none_failed(outcomes);
+        run_files(options.files, {options.out, options.quiet, reports, options.json ? stream : nullptr}, work);
+    if (options.files.size() > 1 || to_folder) return require_none_failed(outcomes);
+    require_not_refused(outcomes.front(), options.files.front(), "swivel inspect",
+                        !options.out.empty() || !options.export_contacts.empty());
 }
 
 }  // namespace swivel::tools

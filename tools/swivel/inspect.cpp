@@ -6,13 +6,15 @@
 // Doubts are those of clip_doubts(), and
 // - garbage: no limb binds; if some do, a limb that does not is a doubt;
 // - legs below 0.2 m or above 2.5 m in a file of metres;
-// - some frames, not all, are a T-pose: arms aside and legs down, within 25 degrees;
+// - frames are a T-pose: arms aside and legs down, within 25 degrees;
+// - nothing moves;
 // - it glides, see slide_of();
 // - a foot skates above 0.3 leg lengths a second in the mean of its contacts; recorded feet are at 0.2;
-// - a toe is under the floor by 0.085 leg lengths, by which others may be over it and in contact;
+// - a toe is more than 0.085 leg lengths under the floor, as far as a toe in contact may be above it;
 // - a knee turns by four times as much as in the frames beside that, and above 720 degrees a second;
-// - a joint trembles by a degree, at 49 frames a second or more. Recorded joints are at 0.7; toes are left out.
-// Root, feet, knees, noise and loop are told of three even frames or more.
+// - a joint trembles by a degree, at 49 frames a second or more. Recorded joints are at 0.7; toes are left out;
+// - its keys lie at uneven times, so that most of the above is not judged.
+// Root, feet, knees and loop are told of three even frames or more, noise of five.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -35,6 +37,7 @@
 #include "tools/swivel/crowd_job.h"
 #include "tools/swivel/motion_file.h"
 #include "tools/swivel/report.h"
+#include "tools/swivel/run_files.h"
 
 namespace swivel::tools {
 
@@ -51,7 +54,9 @@ constexpr double kSkate = 0.3;                     // leg lengths a second
 constexpr double kStraight = 0.995;                // of both bones: a knee bent by 11 degrees
 constexpr double kFast_deg = 720, kSnapRatio = 4;
 constexpr double kTremble_deg = 1;
-constexpr double kSlowest = 1.0 / 49;  // seconds a frame: in longer ones motion hides a tremble
+constexpr double kSlowest = 1.0 / 49;    // seconds a frame: in longer ones motion hides a tremble
+constexpr std::size_t kFewestNoisy = 5;  // frames: fourth differences take five
+constexpr double kStill = 0.001;         // radians that a joint turns, body sizes that it goes: less is no motion
 
 // How far a joint trembles, in degrees. Motion is smooth, so fourth differences of rotations are noise: the root of 70
 // times its deviation about each axis. The median of their lengths is 1.54 times that.
@@ -73,7 +78,9 @@ double tremble_deg(const Clip& clip, int joint)
 
 Json json_of(const SomeFrames& frames)
 {
-    return {{"frames", frames.count}, {"of", frames.all}, {"from_frame", frames.first}};
+    Json json = {{"frames", frames.count}, {"of", frames.all}};
+    if (frames.count > 0) json["from_frame"] = frames.first;
+    return json;
 }
 
 class Inspector {
@@ -89,13 +96,14 @@ public:
         judge_binding();
         std::ranges::move(clip_doubts(body_), std::back_inserter(doubts_.all));
         if (body_.has(0) && body_.has(2)) judge_t_pose();
+        if (is_still()) doubts_.look("it has no motion");
         std::vector<Limb> legs;
         for (const LimbFinding& each : search_.findings)
             if (each.limb && each.name.kind == formats::LimbKind::leg) legs.push_back(*each.limb);
         if (std::ranges::none_of(doubts_.all, &ClipDoubt::is_up_wrong) && clip_.frame_time > 0 &&
             clip_.frame_count >= 3) {
             if (!legs.empty() && carrier >= 0) judge_motion(leg_motion(clip_, legs, carrier, body_.up_w()));
-            if (clip_.frame_time < kSlowest) judge_tremble();
+            if (clip_.frame_time < kSlowest && clip_.frame_count >= kFewestNoisy) judge_tremble();
         }
         const bool is_garbage = std::ranges::any_of(doubts_.all, &ClipDoubt::is_garbage);
         Json all = {
@@ -125,6 +133,7 @@ private:
             clip["frames_a_second"] = 1 / clip_.frame_time;
         } else if (clip_.frame_count > 1) {
             clip["keys"] = "at uneven times; --fps tells root, feet, knees, noise and loop, too";
+            doubts_.look("feet, knees and noise are not judged: keys at uneven times; give --fps");
         }
         if (const auto notes = file_.notes(); !notes.empty()) out_["notes"] = notes;
         const double leg = body_.limbs()[2] || body_.limbs()[3] ? body_.leg_length() : 0;
@@ -153,7 +162,24 @@ private:
     {
         const SomeFrames frames = body_.where([&](const Places& places_w) { return is_t_pose(places_w); });
         if (frames.count > 0 && frames.count < frames.all) doubts_.look("a T-pose {}", frames.words());
+        if (frames.count == frames.all && frames.all > 1) doubts_.look("all {} frames are a T-pose", frames.all);
         out_["t_pose"] = json_of(frames);
+    }
+    // Whether no joint ever turns, and the body goes nowhere.
+    bool is_still() const
+    {
+        if (clip_.frame_count < 2) return true;
+        const std::size_t count = clip_.joints.size();
+        for (std::size_t n = count; n < clip_.rotation.size(); ++n)
+            if (clip_.rotation[n].angularDistance(clip_.rotation[n % count]) > kStill) return false;
+        const Places& first_w = body_.frames_w().front();
+        double size = 0;
+        for (const Vector3d& place_w : first_w) size = std::max(size, (place_w - first_w.front()).norm());
+        return std::ranges::all_of(body_.frames_w(), [&](const Places& places_w) {
+            for (std::size_t n = 0; n < places_w.size(); ++n)
+                if ((places_w[n] - first_w[n]).norm() > kStill * size) return false;
+            return true;
+        });
     }
     bool is_t_pose(const Places& places_w) const
     {
@@ -178,8 +204,11 @@ private:
             if (stands) judge_foot(motion, n, contacts, {motion.up_w, floor_level(motion, contacts), nullptr});
             judge_knee(motion.legs[n]);
         }
-        if (motion.up_w != Vector3d::UnitY() || clip_.frame_count > kMaxSearched) return;  // as find_loop() takes it
-        if (const FoundLoop found = find_loop(clip_, motion.carrier); std::isfinite(found.gap))
+        const bool is_y_up = motion.up_w == Vector3d::UnitY();
+        if (!is_y_up || clip_.frame_count > kMaxSearched)  // find_loop() takes neither
+            out_["loop"]["text"] =
+                is_y_up ? fmt::format("not searched: over {} frames", kMaxSearched) : "not searched: y is not up";
+        else if (const FoundLoop found = find_loop(clip_, motion.carrier); std::isfinite(found.gap))
             out_["loop"] = {{"first_frame", found.loop.first},
                             {"last_frame", found.loop.last},
                             {"gap", {{"deg", found.gap * kDegrees}}},
@@ -200,7 +229,7 @@ private:
         if (!slide) return;
         root["feet_slide_a_second"] = json(slide->velocity_w.norm());
         if (slide->with_body)
-            doubts_.look("it glides, and does not walk: its feet slide with the body, by {} a second in the mean",
+            doubts_.look("it glides, and does not walk: its feet slide with the body, by about {} a second",
                          text(slide->velocity_w.norm()));
     }
     void judge_foot(const LegMotion& motion, std::size_t n, const Contacts& contacts, const Floor& floor)
@@ -219,10 +248,13 @@ private:
         out_[side + "_foot"] = {{"joint", joint_at(clip_, path.toe).name},
                                 {"contacts", contacts_of(contacts[n]).size()},
                                 {"in_contact", json_of(in_contact)},
-                                {"skate_a_step", json(skating.step * leg)},
-                                {"drift_at_most", json(skating.drift * leg, skating.drift_frame)},
-                                {"off_floor_at_most", json(skating.off_ground * leg, skating.off_ground_frame)},
-                                {"under_floor_at_most", json(depth.value, depth.frame)}};
+                                {"skate_a_step", json(skating.step * leg)}};
+        Json& foot = out_[side + "_foot"];
+        if (in_contact.count > 0) {
+            foot["drift_at_most"] = json(skating.drift * leg, skating.drift_frame);
+            foot["off_floor_at_most"] = json(skating.off_ground * leg, skating.off_ground_frame);
+        }
+        foot["under_floor_at_most"] = json(depth.value, depth.frame);
         if (skating.mean_speed > kSkate)
             doubts_.look("the {} foot skates by {} a second in the mean of its contacts, and drifts by {} to frame {}",
                          side, text(skating.mean_speed * leg), text(skating.drift * leg), skating.drift_frame);
@@ -290,7 +322,7 @@ std::string spaced(std::string key)
 }
 
 // A value of such JSON for people: "2.2 cm in frame 27", "94 of 152 frames (62 %), from frame 0".
-std::string words_of(const Json& value)
+std::string line_of(const Json& value)
 {
     if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
     if (value.is_number_float()) return fmt::format("{:.4g}", value.get<double>());
@@ -309,7 +341,7 @@ std::string words_of(const Json& value)
                 (value["frames"] > 0 ? ", from frame " + value["from_frame"].dump() : "");
     else
         for (const auto& [key, each] : value.items())
-            words += (words.empty() ? "" : ", ") + (value.is_array() ? "" : spaced(key) + " ") + words_of(each);
+            words += (words.empty() ? "" : ", ") + (value.is_array() ? "" : spaced(key) + " ") + line_of(each);
     if (value.contains("frame")) words += " in frame " + value["frame"].dump();
     return words;
 }
@@ -320,16 +352,16 @@ void print_inspection(const Json& json)
     say(stdout, "{:<10} {}{}\n", json["verdict"].get<std::string>(), shown_file(json["file"].get<std::string>()),
         json["doubts"].empty() ? ": nothing stands out" : "");
     for (const Json& doubt : json["doubts"])
-        say(stdout, "{:<10} {}\n", doubt["verdict"].get<std::string>(), words_of(doubt));
+        say(stdout, "{:<10} {}\n", doubt["verdict"].get<std::string>(), line_of(doubt));
     for (const auto& [key, value] : json.items())
-        if (value.is_structured() && key != "doubts") say(stdout, "{:<10} {}\n", spaced(key), words_of(value));
+        if (value.is_structured() && key != "doubts") say(stdout, "{:<10} {}\n", spaced(key), line_of(value));
 }
 
 // The first doubt, or the first that makes the clip garbage; empty for a good one.
 std::string first_doubt(const Json& json)
 {
     for (const Json& each : json["doubts"])
-        if (each["verdict"] == json["verdict"]) return words_of(each);
+        if (each["verdict"] == json["verdict"]) return line_of(each);
     return {};
 }
 
@@ -341,10 +373,10 @@ void print_line(const Json& json)
         if (json.contains(foot)) skate_cm = std::max(skate_cm, json[foot]["skate_a_step"]["cm"].get<double>());
     std::string doubts = json["doubts"].empty() ? "" : ": " + first_doubt(json);
     if (json["doubts"].size() > 1) doubts += fmt::format("; {} more", json["doubts"].size() - 1);
-    const bool closes = json.contains("loop") && json["loop"]["closes"].get<bool>();
+    const bool closes = json.contains("loop") && json["loop"].value("closes", false);
     say(stdout, "{:<8}{:>7}{:>9}{:>11}  {:<13}{}{}\n", json["verdict"].get<std::string>(),
-        words_of(json["clip"].value("seconds", Json("-"))),
-        json.contains("root") ? words_of(json["root"]["goes"]) : "-", skate_cm > 0 ? length_text(skate_cm, {1}) : "-",
+        line_of(json["clip"].value("seconds", Json("-"))), json.contains("root") ? line_of(json["root"]["goes"]) : "-",
+        skate_cm > 0 ? length_text(skate_cm, {1}) : "-",
         closes ? fmt::format("{} to {}", json["loop"]["first_frame"].dump(), json["loop"]["last_frame"].dump()) : "-",
         shown_file(json["file"].get<std::string>()), doubts);
 }
@@ -366,11 +398,21 @@ void run_inspect(const InspectOptions& options)
     if (prints && !is_one)
         say(stdout, "{:<8}{:>7}{:>9}{:>11}  {:<13}{}\n", "", "seconds", "goes", "skate/step", "loop", "file");
     Json clips = Json::array();
+    const auto print_clips = [&] {
+        if (options.json) print_json({{"clips", clips}});
+    };
     std::size_t bad = 0;
     for (const std::string& name : options.files) {
         bool is_bad = false;
         const auto run_one = [&] {
-            const Json& json = clips.emplace_back(inspected(options, name));
+            try {
+                clips.push_back(inspected(options, name));
+            } catch (const std::exception& error) {
+                clips.push_back(failed_json(name, error.what()));
+                if (is_one) print_clips();
+                throw;
+            }
+            const Json& json = clips.back();
             if (prints) is_one ? print_inspection(json) : print_line(json);
             is_bad = json["verdict"] == "garbage";
         };
@@ -380,7 +422,7 @@ void run_inspect(const InspectOptions& options)
             is_bad = true;
         if (is_bad) ++bad;
     }
-    if (options.json) print_json({{"clips", clips}});
+    print_clips();
     if (bad == 0) return;
     throw CommandError(1, is_one ? fmt::format("{}: garbage: {}", options.files.front(), first_doubt(clips.front()))
                                  : fmt::format("{} of {} clips failed or are garbage", bad, options.files.size()));

@@ -41,7 +41,7 @@ public:
 
     // Drops all but the first frames, for a motion that will not be written. frame_count: at most the clip's.
     void cut(std::size_t frame_count);
-    // Takes another motion of the clip's joints, which will not be written.
+    // Takes another motion of the clip's joints. The file's own keys stay; write() writes the keys it is given.
     void replace(formats::Clip clip);
 
     const formats::Clip& clip() const

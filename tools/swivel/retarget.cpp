@@ -212,44 +212,45 @@ MovedBody moved_body(const Retargeted& motion, int root, const KnownLimbs& limbs
     return {root, motion.hips, motion.hips, up_w, [level](const Eigen::Vector3d&) { return level; }};
 }
 
-void print_pairs(std::FILE* to, const Clip& source, const Clip& target, const JointPairs& pairs)
+void print_pairs(std::FILE* reports, const Clip& source, const Clip& target, const JointPairs& pairs)
 {
     const auto count = std::ranges::count_if(pairs, &PairedPart::is_paired);
     const auto parts =
         std::ranges::count_if(pairs, [](const auto& each) { return each.is_paired() && !each.name.empty(); });
-    say(to, "paired    {} parts of the body, {} more joints by their names\n", parts, count - parts);
-    say(to, "at rest   of TARGET: {}\n", names_of(target, unpaired_bones(pairs, target, BodySide::target)));
-    say(to, "unused    of SOURCE: {}\n", names_of(source, unpaired_bones(pairs, source, BodySide::source)));
+    say(reports, "paired    {} parts of the body, {} more joints by their names\n", parts, count - parts);
+    say(reports, "at rest   of TARGET: {}\n", names_of(target, unpaired_bones(pairs, target, BodySide::target)));
+    say(reports, "unused    of SOURCE: {}\n", names_of(source, unpaired_bones(pairs, source, BodySide::source)));
 }
 
 // problems: of each limb, why it was not solved; empty: it was.
-void print_motion(std::FILE* to, const Retargeted& motion, const std::vector<std::string>& problems,
+void print_motion(std::FILE* reports, const Retargeted& motion, const std::vector<std::string>& problems,
                   const std::vector<GoalMiss>& misses)
 {
-    say(to, "lengths   {:.6g} of TARGET for 1 of SOURCE, by the legs\n", motion.leg_ratio);
+    say(reports, "lengths   {:.6g} of TARGET for 1 of SOURCE, by the legs\n", motion.leg_ratio);
     for (std::size_t n = 0; n < misses.size(); ++n) {
         const formats::LimbName limb = motion.limbs[n];
         if (!problems[n].empty())
-            say(to, "{:<9} not solved: {}\n", plain_name(limb), problems[n]);
+            say(reports, "{:<9} not solved: {}\n", plain_name(limb), problems[n]);
         else
-            say(to, "{:<9} {} from its goal: {:.2g} of the limb's length in the mean, most {:.2g} in frame {}\n",
+            say(reports, "{:<9} {} from its goal: {:.2g} of the limb's length in the mean, most {:.2g} in frame {}\n",
                 plain_name(limb), words_of(limb.kind).end_joint, misses[n].mean, misses[n].max, misses[n].max_frame);
     }
 }
 
-void print_clips(std::FILE* to, const RetargetOptions& options, const MotionFile& source, const MotionFile& target)
+void print_clips(std::FILE* reports, const RetargetOptions& options, const MotionFile& source, const MotionFile& target)
 {
-    say(to, "source    {}: {}, {} frames\n", shown_file(options.source), source.describe(), source.clip().frame_count);
-    for (const std::string& note : source.notes()) say(to, "note      {}\n", note);
-    say(to, "target    {}: {}\n", shown_file(options.target), target.describe());
-    for (const std::string& note : target.notes()) say(to, "note      {}\n", note);
+    say(reports, "source    {}: {}, {} frames\n", shown_file(options.source), source.describe(),
+        source.clip().frame_count);
+    for (const std::string& note : source.notes()) say(reports, "note      {}\n", note);
+    say(reports, "target    {}: {}\n", shown_file(options.target), target.describe());
+    for (const std::string& note : target.notes()) say(reports, "note      {}\n", note);
 }
 
-void print_verdict(std::FILE* to, const Verdict& verdict)
+void print_verdict(std::FILE* reports, const Verdict& verdict)
 {
-    for (const std::string& doubt : verdict.doubts) say(to, "look      {}\n", doubt);
-    for (const std::string& fault : verdict.faults) say(to, "garbage   {}\n", fault);
-    if (verdict.is_good()) say(to, "good      no bone, goal, knee, hand or foot stands out\n");
+    for (const std::string& doubt : verdict.doubts) say(reports, "look      {}\n", doubt);
+    for (const std::string& fault : verdict.faults) say(reports, "garbage   {}\n", fault);
+    if (verdict.is_good()) say(reports, "good      no bone, goal, knee, hand or foot stands out\n");
 }
 
 Json json_of(const RetargetOptions& options, const MotionFile& source, const MotionFile& target,
@@ -293,8 +294,8 @@ void require_usage(const RetargetOptions& options)
     require_many_files(inputs, options.files.size() - 1, options.out, "SOURCE", {{"--export-map", options.export_map}});
 }
 
-// One SOURCE, to its file. reports: null for none. json: what it says of it is added there.
-FileOutcome run_one(const RetargetOptions& options, const BodyChoices& choices, std::FILE* reports, Json& json)
+// One SOURCE, to its file. reports: null for none. clips: its JSON is added there.
+FileOutcome run_one(const RetargetOptions& options, const BodyChoices& choices, std::FILE* reports, Json& clips)
 {
     MotionFile source_file(options.source, {options.clip, options.rate, choices.source.rest}),
         target_file(options.target, {{}, 0, choices.target.rest});
@@ -319,9 +320,12 @@ FileOutcome run_one(const RetargetOptions& options, const BodyChoices& choices, 
     const std::vector<std::string> problems =
         solve_limbs(motion, parts, options.map.empty() ? options.target : options.map);
     Verdict verdict = verdict_of(source, motion, pairs);
-    for (const ClipDoubt& doubt : clip_doubts({source, parts_of(pairs, BodySide::source)}))
-        verdict.doubts.push_back("SOURCE: " + doubt.text);
-    for (const ClipDoubt& doubt : body_doubts({target, parts})) verdict.doubts.push_back("TARGET: " + doubt.text);
+    const auto add = [&](const char* whose, const std::vector<ClipDoubt>& doubts) {
+        for (const ClipDoubt& doubt : doubts)
+            (doubt.is_garbage ? verdict.faults : verdict.doubts).push_back(whose + doubt.text);
+    };
+    add("SOURCE: ", clip_doubts({source, parts_of(pairs, BodySide::source)}));
+    add("TARGET: ", body_doubts({target, parts}));
     const bool is_done = verdict.faults.empty() || options.force, is_written = is_done && !options.out.empty();
     const std::string map = is_done ? options.export_map : "";
     if (is_written)
@@ -339,9 +343,9 @@ FileOutcome run_one(const RetargetOptions& options, const BodyChoices& choices, 
         print_written(reports, {map, is_written ? options.out : ""}, 10);
     }
     if (options.json) {
-        json.push_back(json_of(options, source_file, target_file, pairs, motion, problems, verdict));
-        if (is_written) json.back()["out"] = options.out;
-        if (!map.empty()) json.back()["export_map"] = map;
+        Json& json = clips.emplace_back(json_of(options, source_file, target_file, pairs, motion, problems, verdict));
+        if (is_written) json["out"] = options.out;
+        if (!map.empty()) json["export_map"] = map;
     }
     return {options.source, is_written ? options.out : "", verdict.doubts, verdict.faults, !is_done};
 }
@@ -364,21 +368,16 @@ void run_retarget(const RetargetOptions& given)
     for (const std::string& source : sources) read.push_back({source, "SOURCE"});
     read.push_back({options.target, "TARGET"}), read.push_back({options.map, "the table of pairs"});
     require_own_outputs(outputs, read);
-    std::FILE* const to = report_stream(outputs);
-    std::FILE* const reports = options.quiet || options.json ? nullptr : to;
-    Json json = Json::array();
-    const std::vector<FileOutcome> outcomes = run_files(sources, {given.out, given.quiet, reports}, [&](std::size_t n) {
-        options.source = sources[n], options.out = outputs[n];
-        return run_one(options, choices, to_folder ? nullptr : reports, json);
-    });
-    if (given.json) print_json({{"clips", json}}, to);
+    std::FILE* const stream = report_stream(outputs);
+    std::FILE* const reports = options.quiet || options.json ? nullptr : stream;
+    const std::vector<FileOutcome> outcomes = run_files(
+        sources, {given.out, given.quiet, reports, given.json ? stream : nullptr}, [&](std::size_t n, Json& clips) {
+            options.source = sources[n], options.out = outputs[n];
+            return run_one(options, choices, to_folder ? nullptr : reports, clips);
+        });
     if (sources.size() > 1 || to_folder) return require_none_failed(outcomes);
-    if (!outcomes.front().is_refused) return;
-    const bool writes = !given.out.empty() || !given.export_map.empty();
-    throw CommandError(1,
-                       fmt::format("{}: {}{}; see swivel rig of both{}", given.out.empty() ? options.target : given.out,
-                                   first_and_more(outcomes.front().garbage), writes ? "; nothing is written" : "",
-                                   writes ? ", or give --force" : ""));
+    require_not_refused(outcomes.front(), given.out.empty() ? options.target : given.out, "swivel rig of both",
+                        !given.out.empty() || !given.export_map.empty());
 }
 
 }  // namespace swivel::tools

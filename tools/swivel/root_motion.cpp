@@ -82,6 +82,10 @@ int root_joint(const formats::Clip& clip, int carrier, const std::string& file)
     for (std::size_t n = 0; n < clip.joints.size(); ++n) {
         const formats::Joint& joint = clip.joints[n];
         if (!formats::same_ignoring_case(joint.name, kRoot)) continue;
+        if (static_cast<int>(n) == carrier)
+            throw formats::InputError(file, fmt::format("'{}' already carries the motion of the whole body, hips "
+                                                        "included; rename it to get a new root above it",
+                                                        printable_name(joint)));
         const bool is_rigid = joint.rest_scale == Vector3d::Ones() && joint.scale_track < 0 && !joint.is_sheared;
         if (static_cast<int>(n) != above || !is_rigid)
             throw formats::InputError(file,

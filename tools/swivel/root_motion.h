@@ -24,7 +24,7 @@ struct MovedBody {
 };
 
 // The joint right above the carrier, if that is called root and has no scale; it then takes the motion. Else -1: a new
-// one does. Throws InputError, naming `file`, if another joint has the name, in any case.
+// one does. Throws InputError, naming `file`, if the carrier or another joint has the name, in any case.
 int root_joint(const formats::Clip& clip, int carrier, const std::string& file);
 
 // Whether a figure rests with its feet on the ground at height 0: an ankle is within 0.3 of the leg's height of it.

@@ -60,12 +60,18 @@ const char* verdict_of(const FileOutcome& outcome)
     return verdict_word(!outcome.look.empty(), !outcome.garbage.empty());
 }
 
-// "a.bvh > out/a.bvh: the first thing that stands out, and 2 more", as one line.
-std::string line_of(const FileOutcome& outcome)
+// "the first text, and 2 more". texts: one or more.
+std::string first_and_more(const std::vector<std::string>& texts)
+{
+    return texts.front() + (texts.size() > 1 ? fmt::format(", and {} more", texts.size() - 1) : "");
+}
+
+// "a.bvh > out/a.bvh: the first thing that stands out, and 2 more", as one line. writes: an output was asked for.
+std::string line_of(const FileOutcome& outcome, bool writes)
 {
     std::string line = shown_file(outcome.file);
     if (!outcome.out.empty()) line += " > " + shown_file(outcome.out);
-    if (outcome.is_refused) line += " is not written";
+    if (outcome.is_refused) line += writes ? " is not written" : " is garbage";
     const std::vector<std::string>& told = outcome.garbage.empty() ? outcome.look : outcome.garbage;
     if (!told.empty()) line += ": " + first_and_more(told);
     return line;
@@ -87,6 +93,37 @@ void write_manifest(const std::string& folder, const std::vector<FileOutcome>& o
     formats::OutputFile out(manifest_in(folder));
     out.write(formats::printable_lines(json_text({{"clips", std::move(clips)}})));
     out.commit();
+}
+
+// Makes the folder, and removes the manifest of an earlier run: this run may end before it writes its own. Refuses a
+// manifest.json that swivel did not write.
+void prepare_folder(const std::string& folder)
+{
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error)
+        throw CommandError(
+            1, fmt::format("--out {}: no folder can be made there ({}); name another", folder, error.message()));
+    const std::string manifest = manifest_in(folder);
+    if (!fs::exists(manifest, error)) return;
+    const bool is_file = fs::is_regular_file(manifest, error);
+    const Json old = is_file ? Json::parse(formats::read_text(manifest), nullptr, false) : Json();
+    if (!old.is_object() || !old.contains("clips"))
+        throw CommandError(2, fmt::format("{}: swivel did not write this file, and would replace it; move it, or name "
+                                          "another folder",
+                                          manifest));
+    if (!fs::remove(manifest, error))
+        throw CommandError(1, fmt::format("{}: cannot be replaced ({})", manifest, error.message()));
+}
+
+// Throws CommandError for an output that cannot be a folder.
+void require_folder(const std::string& out)
+{
+    std::error_code ignored;
+    const std::string suffix = formats::lower_suffix(out);
+    const bool is_folder = !is_standard_stream(out) && fs::is_directory(out, ignored);
+    if (!is_folder && (is_standard_stream(out) || is_bvh(suffix) || is_gltf(suffix) || fs::exists(out, ignored)))
+        throw CommandError(2, fmt::format("--out {}: several files go into a folder; name one", out));
 }
 
 }  // namespace
@@ -196,49 +233,74 @@ void require_many_files(std::span<const std::string> inputs, std::size_t file_co
         if (file_count > 1 && !value.empty())
             throw CommandError(
                 2, fmt::format("{}: a table is of one {}, not of {}; run each by itself", option, kind, file_count));
+    if (file_count > 1 && !out.empty()) require_folder(out);
+}
+
+Json failed_json(const std::string& file, const std::string& error)
+{
+    return {{"file", file}, {"verdict", "failed"}, {"error", error}};
 }
 
 std::vector<FileOutcome> run_files(const std::vector<std::string>& files, const ManyFiles& run,
-                                   const std::function<FileOutcome(std::size_t)>& work)
+                                   const std::function<FileOutcome(std::size_t, Json&)>& work)
 {
     const bool to_folder = is_to_folder(run.out, files.size());
-    if (files.size() == 1 && !to_folder) return {work(0)};
-    if (to_folder) fs::create_directories(run.out);
+    Json clips = Json::array();
+    const auto print_clips = [&] {
+        if (run.json) print_json({{"clips", clips}}, run.json);
+    };
+    FileOutcome outcome;
+    const auto run_one = [&](std::size_t n) {
+        outcome = {};
+        try {
+            outcome = work(n, clips);
+        } catch (const std::exception& error) {
+            outcome.error = error.what();
+            clips.push_back(failed_json(files[n], outcome.error));
+            throw;
+        }
+    };
+    if (files.size() == 1 && !to_folder) {
+        try {
+            run_one(0);
+        } catch (...) {
+            print_clips();
+            throw;
+        }
+        print_clips();
+        return {outcome};
+    }
+    if (to_folder) prepare_folder(run.out);
     std::FILE* const lines = to_folder ? run.lines : nullptr;
     std::vector<FileOutcome> outcomes;
     Progress progress("clips", files.size(), run.quiet || lines);
     for (std::size_t n = 0; n < files.size(); ++n) {
         progress.show(n);
-        FileOutcome outcome;
-        const int code = run_to_end([&] {
-            try {
-                outcome = work(n);
-            } catch (const std::exception& error) {
-                outcome.error = error.what();
-                throw;
-            }
-        });
+        const int code = run_to_end([&] { run_one(n); });
         outcome.file = files[n];
         if (code != 0 && outcome.error.empty()) outcome.error = "standard output could not be written in full";
         if (code == 0 && lines)
-            say(lines, "{:<9} {}\n", verdict_of(outcome), line_of(outcome));
+            say(lines, "{:<9} {}\n", verdict_of(outcome), line_of(outcome, to_folder));
         else if (code == 0 && outcome.has_failed())
-            fail(1, line_of(outcome));
-        outcomes.push_back(std::move(outcome));
+            fail(1, line_of(outcome, to_folder));
+        outcomes.push_back(outcome);
     }
+    print_clips();
     if (to_folder) write_manifest(run.out, outcomes);
     return outcomes;
-}
-
-std::string first_and_more(const std::vector<std::string>& texts)
-{
-    return texts.front() + (texts.size() > 1 ? fmt::format(", and {} more", texts.size() - 1) : "");
 }
 
 void require_none_failed(const std::vector<FileOutcome>& outcomes)
 {
     if (const auto failed = std::ranges::count_if(outcomes, &FileOutcome::has_failed); failed > 0)
         throw CommandError(1, fmt::format("{} of {} clips failed", failed, outcomes.size()));
+}
+
+void require_not_refused(const FileOutcome& outcome, const std::string& name, const char* see, bool writes)
+{
+    if (!outcome.is_refused) return;
+    throw CommandError(1, fmt::format("{}: {}{}; see {}{}", name, first_and_more(outcome.garbage),
+                                      writes ? "; nothing is written" : "", see, writes ? ", or give --force" : ""));
 }
 
 }  // namespace swivel::tools

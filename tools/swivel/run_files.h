@@ -2,13 +2,14 @@
 //
 // The files that runs read and write: their formats, standard streams, and the rule that no input is overwritten. A run
 // over several files says in one line what became of each, and in the folder's manifest.json to machines. A file that
-// fails keeps none from the others.
+// fails keeps none from the others. With --json machines are told of each file, too, also of one that failed.
 #pragma once
 
 #include <cstdint>
 #include <cstdio>
 #include <functional>
 #include <initializer_list>
+#include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string>
 #include <utility>
@@ -50,7 +51,7 @@ std::FILE* report_stream(std::span<const std::string> outputs);
 struct FileOutcome {
     std::string file, out;                   // as the user wrote them; out: empty if nothing was written
     std::vector<std::string> look, garbage;  // what stands out, as reports say it
-    bool is_refused = false;                 // it is garbage, and so is not written
+    bool is_refused = false;                 // it is garbage, and so nothing is written
     std::string error{};                     // why it failed; empty: it did not
 
     bool has_failed() const { return is_refused || !error.empty(); }
@@ -65,8 +66,8 @@ std::vector<std::string> outputs_of(const std::vector<std::string>& files, const
                                     const std::string& suffix = {});
 
 // Throws CommandError for a run over several files, or to a folder, that reads standard input for each, and for one
-// over several files with a table that is of one. kind: of the files, for the message. tables: options and what they
-// name.
+// over several files with a table that is of one, or to a single file. kind: of the files, for the message. tables:
+// options and what they name.
 void require_many_files(std::span<const std::string> inputs, std::size_t file_count, const std::string& out,
                         const char* kind, std::initializer_list<std::pair<const char*, std::string>> tables);
 
@@ -76,17 +77,22 @@ struct ManyFiles {
     bool quiet = false;          // no progress
     std::FILE* lines = nullptr;  // where the line of each file in a folder goes; null: only garbage is told, on
                                  // standard error
+    std::FILE* json = nullptr;   // where the JSON of all files goes; null: there is none
 };
 
-// Makes the folder, does the work for each file, and writes the manifest. work: takes the file's number, and throws as
-// a run of that file alone does. A single file that goes to no folder is such a run.
-std::vector<FileOutcome> run_files(const std::vector<std::string>& files, const ManyFiles& run,
-                                   const std::function<FileOutcome(std::size_t)>& work);
+// A file that failed, in JSON.
+nlohmann::ordered_json failed_json(const std::string& file, const std::string& error);
 
-// "the first text, and 2 more". texts: one or more.
-std::string first_and_more(const std::vector<std::string>& texts);
+// Makes the folder, removes the manifest of an earlier run, does the work for each file, and writes the manifest. work:
+// takes the file's number and a list that it adds the file's JSON to, and throws as a run of that file alone does. A
+// single file that goes to no folder is such a run.
+std::vector<FileOutcome> run_files(const std::vector<std::string>& files, const ManyFiles& run,
+                                   const std::function<FileOutcome(std::size_t, nlohmann::ordered_json&)>& work);
 
 // Throws CommandError if some have failed.
 void require_none_failed(const std::vector<FileOutcome>& outcomes);
+// Throws CommandError if a single file is refused. name: of what is garbage. see: the command that says why. writes:
+// whether an output was asked for.
+void require_not_refused(const FileOutcome& outcome, const std::string& name, const char* see, bool writes);
 
 }  // namespace swivel::tools
