@@ -9,6 +9,7 @@ namespace {
 
 // What a crowd has beside features: characters that look, and twist bones.
 constexpr swivel_features kLook = UINT64_C(1) << 63, kTwistBones = UINT64_C(1) << 62;
+constexpr swivel_features kOwn = UINT64_C(1) << 61;  // the one feature that the library says the field needs
 
 struct FieldRow {
     swivel_field field;
@@ -23,11 +24,11 @@ constexpr FieldRow kFields[] = {
     {SWIVEL_ELBOW, 0, "local rotation of the elbow joint, x y z w", 4, "xyzw"},
     {SWIVEL_WRIST, SWIVEL_WITH_HAND | kLook, "local rotation of the wrist joint, x y z w", 4, "xyzw"},
     {SWIVEL_FLAGS, 0, "bits of swivel_flag"},
-    {SWIVEL_STRETCH, SWIVEL_WITH_REACH, "factor of both bone lengths"},
-    {SWIVEL_NORMAL, SWIVEL_WITH_MAX_SWIVEL, "unit normal of the swivel plane, arm frame", 3, "xyz"},
+    {SWIVEL_STRETCH, kOwn, "factor of both bone lengths"},
+    {SWIVEL_NORMAL, kOwn, "unit normal of the swivel plane, arm frame", 3, "xyz"},
     {SWIVEL_TWIST_BONES, kTwistBones,
      "by how much each twist bone turns from where the clip would have it, about the forearm, x y z w", 4, "xyzw"},
-    {SWIVEL_CLAVICLE_ROTATION, SWIVEL_WITH_CLAVICLE, "turn of the shoulder's parent joint, x y z w", 4, "xyzw"},
+    {SWIVEL_CLAVICLE_ROTATION, kOwn, "turn of the shoulder's parent joint, x y z w", 4, "xyzw"},
     {SWIVEL_PLANT, SWIVEL_WITH_PLANT, "how a foot stands, as SWIVEL_PLANT", 11, "part", true},
     {SWIVEL_SHIFT, SWIVEL_WITH_PELVIS_FIT,
      "the body's, of each limb: as SWIVEL_SHIFT, then how much higher it is than its place says", 4, "part"},
@@ -89,7 +90,8 @@ std::vector<ResultField> result_fields(const CachedCrowd& crowd)
     if (twist_bones > 0) features |= kTwistBones;
     std::vector<ResultField> fields;
     for (const FieldRow& row : kFields) {
-        if (row.any_of != 0 && (features & row.any_of) == 0) continue;
+        const swivel_features any_of = row.any_of == kOwn ? describe(row.field).needs : row.any_of;
+        if (any_of != 0 && (features & any_of) == 0) continue;
         fields.push_back({row.field, describe(row.field).name, row.meaning, {}, {}, row.is_state_alone});
         if (row.field == SWIVEL_TWIST_BONES)
             fields.back().parts = {twist_bones}, fields.back().part_dimensions = {"twist_bone"};
