@@ -11,10 +11,9 @@ namespace swivel {
 
 namespace {
 
-// The first body that a job solves, or nullopt if its mask selects none.
+// The first body that a job solves, or nullopt if it solves none.
 std::optional<std::uint32_t> first_body(const Work& work)
 {
-    if (!work.mask && work.blocks.count > 0) return work.blocks.first * SWIVEL_LANES;
     for (std::uint32_t block = work.blocks.first; block < work.blocks.first + work.blocks.count; ++block)
         if (const LaneMask bits = chosen_limbs(work.crowd.groups[0], block, work.mask))
             return block * SWIVEL_LANES + static_cast<std::uint32_t>(std::countr_zero(bits));

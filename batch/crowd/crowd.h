@@ -150,10 +150,11 @@ inline LaneMask lanes_of_limbs(const Group& group, std::uint32_t block)
 {
     return kAllLanes >> (SWIVEL_LANES - limb_count_of(group, block));
 }
-// The lanes of those limbs that a mask of the crowd chooses.
+// The lanes of those limbs that a mask of the crowd chooses; null chooses all.
 inline LaneMask chosen_limbs(const Group& group, std::uint32_t block, const std::uint32_t* mask)
 {
-    return lanes_of(mask, group.first_block + block) & lanes_of_limbs(group, block);
+    const LaneMask limbs = lanes_of_limbs(group, block);
+    return mask ? lanes_of(mask, group.first_block + block) & limbs : limbs;
 }
 
 // Words of a mask with a bit for each lane.

@@ -30,7 +30,7 @@ struct BodyStrips {
         const Group& any = work.crowd.groups[0];
         for (std::uint32_t n = 0; n < strip.count; ++n) {
             const std::uint32_t block = strip.first + n;
-            const LaneMask lanes = work.mask ? chosen_limbs(any, block, work.mask) : lanes_of_limbs(any, block);
+            const LaneMask lanes = chosen_limbs(any, block, work.mask);
             if (lanes != 0) take(BodyBlock{memory.bodies + n * block_floats, block * SWIVEL_LANES, lanes});
         }
     }

@@ -119,7 +119,7 @@ void GroupCopies::copy_in(const std::uint32_t* mask, GroupBlocks some) const
 void GroupCopies::copy_out(const std::uint32_t* mask, GroupBlocks some) const
 {
     const auto good = [&](std::uint32_t block) {
-        return (mask ? chosen_limbs(*group, block, mask) : lanes_of_limbs(*group, block)) & ~bad_lanes(*group, block);
+        return chosen_limbs(*group, block, mask) & ~bad_lanes(*group, block);
     };
     in_parts(*this, some, [&](GroupBlocks part) {
         if (!group->keeps_pose) return copy_chosen(*group, in_end, out_end, mask, part);
