@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Character C: 512 of them, in cache, from pose to pose. Beside all of it are its legs, look and arms alone, what
-// saving and loading its state takes, and the same on glm, one character at a time.
+// Character C from pose to pose: 512 of them, in cache, and as few as one and more than the caches hold. Beside all of
+// it are its legs, look and arms alone, what saving and loading its state takes, and the same on glm, one character at
+// a time.
 #include "bench/body_look.h"
 #include "bench/rivals/level.h"
 #include "bench/rivals/rifle.h"
@@ -11,7 +12,7 @@ namespace bench {
 
 namespace {
 
-constexpr std::size_t kCharacters = 512;
+constexpr std::size_t kCharacters = 512, kOtherCounts[] = {1, 4, 8, 16, 64, 16384};
 constexpr swivel_features kEvery = SWIVEL_WITH_HAND | SWIVEL_POLE_INCOMING,
                           kLeg = kEvery | SWIVEL_WITH_EFFECTOR | SWIVEL_WITH_PLANT | SWIVEL_WITH_CAP |
                                  SWIVEL_WITH_PELVIS_FIT | SWIVEL_WITH_GROUND,
@@ -28,7 +29,8 @@ constexpr Parts kParts[] = {{"legs", true, false, false},
 
 class Played {
 public:
-    explicit Played(const Parts& parts) : crowd_(make(parts))
+    Played(const Parts& parts, std::size_t count)
+        : given(random_characters(count)), solved(given), crowd_(make(parts, static_cast<std::uint32_t>(count)))
     {
         std::uint32_t group = 0;
         if (parts.arms) write_arms(group), group += 2;
@@ -41,17 +43,17 @@ public:
     // How many rifles' elbows the region holds back.
     double limited_share() const
     {
-        std::vector<std::uint32_t> flags(kCharacters);
+        std::vector<std::uint32_t> flags(given.size());
         crowd_.read(SWIVEL_FLAGS, 0, flags);
         return static_cast<double>(
                    std::ranges::count_if(flags, [](std::uint32_t f) { return f & SWIVEL_LIMITED_REGION; })) /
-               static_cast<double>(kCharacters);
+               static_cast<double>(flags.size());
     }
 
-    std::vector<Character> given = random_characters(kCharacters), solved = given;
+    std::vector<Character> given, solved;
 
 private:
-    static swivel::Crowd make(const Parts& parts)
+    static swivel::Crowd make(const Parts& parts, std::uint32_t count)
     {
         const auto joints = body_limbs();
         std::vector<swivel::Definition> groups;
@@ -69,11 +71,12 @@ private:
         }
         if (parts.legs) groups.push_back(swivel_default_shift_def());
         if (parts.look) groups.push_back(body_look());
-        return swivel::Crowd(body_skeleton(), kCharacters, groups);
+        return swivel::Crowd(body_skeleton(), count, groups);
     }
     void write(swivel_field field, std::uint32_t group, const float* first)
     {
-        swivel::check(swivel_write(crowd_.get(), field, group, 0, kCharacters, {first, sizeof(Character)}));
+        swivel::check(swivel_write(crowd_.get(), field, group, 0, static_cast<std::uint32_t>(given.size()),
+                                   {first, sizeof(Character)}));
     }
     void write_arms(std::uint32_t group)
     {
@@ -97,11 +100,10 @@ private:
     swivel::Crowd crowd_;
 };
 
-void add_swivel(const std::string& isa, const Parts& parts)
+void add_swivel(const std::string& isa, const Parts& parts, const std::string& name, std::size_t count)
 {
-    const std::string name = "character/" + isa + "/" + parts.name;
     swivel::check(swivel_use_isa(isa.c_str()));
-    const auto played = std::make_shared<Played>(parts);
+    const auto played = std::make_shared<Played>(parts, count);
     for (int frame = 0; frame < 30; ++frame) played->solve();
     Notes notes;
     if (parts.arms) {
@@ -109,7 +111,7 @@ void add_swivel(const std::string& isa, const Parts& parts)
         notes.emplace_back("limited", played->limited_share());
     }
     add(
-        name, kCharacters, Clock::cpu,
+        name, count, Clock::cpu,
         [isa, played]() -> Work {
             swivel::check(swivel_use_isa(isa.c_str()));
             return [played] { played->solve(); };
@@ -120,7 +122,7 @@ void add_swivel(const std::string& isa, const Parts& parts)
 // Saves and loads what all of them carry.
 void add_state()
 {
-    const auto played = std::make_shared<Played>(kParts[3]);
+    const auto played = std::make_shared<Played>(kParts[3], kCharacters);
     for (int frame = 0; frame < 30; ++frame) played->solve();
     const std::size_t body_bytes = swivel_state_bytes(played->crowd().get());
     const auto state = std::make_shared<std::vector<std::byte>>(kCharacters * body_bytes);
@@ -156,8 +158,11 @@ void add_glm()
 
 void add_character(Suite& suite)
 {
-    for (const std::string& isa : suite.isas)
-        for (const Parts& parts : kParts) add_swivel(isa, parts);
+    for (const std::string& isa : suite.isas) {
+        for (const Parts& parts : kParts) add_swivel(isa, parts, "character/" + isa + "/" + parts.name, kCharacters);
+        for (const std::size_t count : kOtherCounts)
+            add_swivel(isa, kParts[3], "character_count/" + isa + "/" + std::to_string(count), count);
+    }
     add_state();
     add_glm();
 }
