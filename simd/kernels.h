@@ -35,7 +35,7 @@ struct SolveRun {
     bool keeps_pose;                            // of limbs with bad input only the flags are written
     const std::uint32_t* mask;      // the crowd's chosen lanes, a bit for each; null: all. Others keep their results
     std::size_t first_lane;         // of the run, in the mask
-    std::size_t first_padding;      // the first lane of the run that is padding, which no mask chooses
+    std::size_t first_padding;      // the first lane of the run that is padding, which whole limbs leave out
     const StageList* stages;        // of whole limbs
     StripMemory strip;              // the same
     const GroupPlan* plan;          // if the group is of bodies

@@ -54,7 +54,7 @@ struct IntoBody {
 SWIVEL_FLATTEN void move(const BodyBlock& block, const GroupJoints& joints)
 {
     const Motion none = Motion::at(block, 0, 0);
-    for (std::uint32_t lane = 0; lane < kLanes; lane += lane_count<T>) {
+    for_each_slice(block, [&](std::uint32_t lane) SWIVEL_INLINE_LAMBDA {
         const IntoBody body(block, lane);
         const Mask<T> kept = rows_of(block, 0, lane).get(kKeptRow) > T(0.5);
         for (std::uint32_t n = 0; n < joints.turned_count; ++n) {
@@ -68,7 +68,7 @@ SWIVEL_FLATTEN void move(const BodyBlock& block, const GroupJoints& joints)
             at.set(kMotionRow, turn);
             at.set(kShiftRow, select(kept, none.shift, above(place) - turned(turn, place)));
         }
-    }
+    });
 }
 
 // These take one joint of a pose in the body's space to where it moves.
@@ -77,23 +77,23 @@ SWIVEL_FLATTEN [[gnu::noinline]] void carry_rotation(const swivel_pose& pose, co
 {
     const Bodies rotations(block, pose.rotations);
     const std::size_t at = offset_of(pose.rotations, joint.skeleton_joint);
-    for (std::uint32_t lane = 0; lane < kLanes; lane += lane_count<T>) {
+    for_each_slice(block, [&](std::uint32_t lane) SWIVEL_INLINE_LAMBDA {
         const Motion motion = Motion::at(block, joint, lane);
         const Rotor<T> incoming = rotor_of(load_values<T, 4>(rotations.lane + lane, at));
         rows_of(block, 0, lane)
             .set(kOutTurnRow, select(motion.is_none(), incoming, with_one_nan(motion.turn * incoming)));
-    }
+    });
 }
 SWIVEL_FLATTEN [[gnu::noinline]] void carry_translation(const swivel_pose& pose, const BodyBlock& block,
                                                         const MovedJoint& joint)
 {
     const Bodies translations(block, pose.translations);
     const std::size_t at = offset_of(pose.translations, joint.skeleton_joint);
-    for (std::uint32_t lane = 0; lane < kLanes; lane += lane_count<T>) {
+    for_each_slice(block, [&](std::uint32_t lane) SWIVEL_INLINE_LAMBDA {
         const Motion motion = Motion::at(block, joint, lane);
         const Vector<T> incoming = vector_of(load_values<T, 3>(translations.lane + lane, at));
         rows_of(block, 0, lane).set(kOutPlaceRow, select(motion.is_none(), incoming, with_one_nan(motion(incoming))));
-    }
+    });
 }
 template <swivel_pose_form Form>
 SWIVEL_FLATTEN [[gnu::noinline]] void carry_matrix(const swivel_pose& pose, const BodyBlock& block,
@@ -102,7 +102,7 @@ SWIVEL_FLATTEN [[gnu::noinline]] void carry_matrix(const swivel_pose& pose, cons
     constexpr bool by_rows = Form == SWIVEL_MATRIX_ROWS;
     const Bodies matrices(block, pose.rotations);
     const std::size_t at = offset_of(pose.rotations, joint.skeleton_joint);
-    for (std::uint32_t lane = 0; lane < kLanes; lane += lane_count<T>) {
+    for_each_slice(block, [&](std::uint32_t lane) SWIVEL_INLINE_LAMBDA {
         const Motion motion = Motion::at(block, joint, lane);
         const MatrixParts m = read_parts<Form>(matrices.lane + lane, at);
         const RowView<T> out = rows_of(block, 0, lane);
@@ -115,7 +115,7 @@ SWIVEL_FLATTEN [[gnu::noinline]] void carry_matrix(const swivel_pose& pose, cons
             out.set(first + step, moved.template at<kE2>());
             out.set(first + 2 * step, moved.template at<kE3>());
         }
-    }
+    });
 }
 void carry(const BodyPlan& plan, const BodyBlock& block, const MovedJoint& joint)
 {
@@ -137,7 +137,7 @@ void carry(const BodyPlan& plan, const BodyBlock& block, const MovedJoint& joint
 // shift as it does for turns.
 SWIVEL_FLATTEN void locate(const BodyPlan& plan, const BodyBlock& block, const BodyJoint& joint)
 {
-    for (std::uint32_t lane = 0; lane < kLanes; lane += lane_count<T>) {
+    for_each_slice(block, [&](std::uint32_t lane) SWIVEL_INLINE_LAMBDA {
         const IntoBody body(block, lane);
         const Motion motion = Motion::at(block, joint.mover, lane);
         const RowView<T> at = rows_of(block, joint.row, lane), out = rows_of(block, 0, lane);
@@ -147,7 +147,7 @@ SWIVEL_FLATTEN void locate(const BodyPlan& plan, const BodyBlock& block, const B
         out.set(kOutTurnRow, with_one_nan(hemisphere(motion.turn * body.rotation(at))));
         // Adding a shift of 0 would turn -0 to +0.
         out.set(kOutPlaceRow, with_one_nan(select(len2(shifted) == T(0), place, place + body.offset(shifted))));
-    }
+    });
 }
 
 }  // namespace

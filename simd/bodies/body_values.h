@@ -55,6 +55,15 @@ SWIVEL_ALWAYS_INLINE RowView<T> rows_of(const BodyBlock& block, std::uint32_t ro
     return {block.rows + row * kLanes + lane};
 }
 
+// Calls take(its first lane) for each slice of a block that has chosen bodies.
+template <class Take>
+SWIVEL_INLINE void for_each_slice(const BodyBlock& block, const Take& take)
+{
+    constexpr std::uint32_t lanes = lane_count<T>, every = (1u << lanes) - 1;
+    for (std::uint32_t lane = 0; lane < kLanes; lane += lanes)
+        if (lanes == kLanes || (block.lanes >> lane & every) != 0) take(lane);
+}
+
 // A matrix in the order of memory: rows without the translation, and that; or columns.
 struct MatrixParts {
     std::array<T, 3> part[4];

@@ -75,7 +75,7 @@ struct BlockAside {
         SolveRun aside = run;
         aside.input = input;
         aside.results = results;
-        aside.limb_count = count;
+        aside.limb_count = aside.first_padding = count;
         aside.mask = nullptr;
         return aside;
     }

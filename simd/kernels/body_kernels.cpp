@@ -78,20 +78,22 @@ SWIVEL_FLATTEN [[gnu::noinline]] void read_root(const BodyPlan& plan, const Body
     const swivel_pose& pose = *plan.pose;
     const auto at = [&](std::uint32_t row, std::uint32_t lane)
                         SWIVEL_INLINE_LAMBDA { return rows_of(block, row, lane); };
-    for (std::uint32_t lane = 0; lane < kLanes; lane += lane_count<T>) {
+    for_each_slice(block, [&](std::uint32_t lane) SWIVEL_INLINE_LAMBDA {
         set_frame(at(kRootJoint, lane), {one<T>(), none, T(1)});
         at(0, lane).set(kRootRow, none);
         at(0, lane).set(kShiftedRow, none);
-    }
+    });
     if (pose.root_rotation.data) {
         const Bodies bodies(block, pose.root_rotation);
-        for (std::uint32_t lane = 0; lane < kLanes; lane += lane_count<T>)
+        for_each_slice(block, [&](std::uint32_t lane) SWIVEL_INLINE_LAMBDA {
             at(kRootJoint, lane).set(kTurnRow, unit_rotation(rotor_of(load_values<T, 4>(bodies.lane + lane, 0))));
+        });
     }
     if (pose.root_position.data && !pose.root_is_double) {
         const Bodies bodies(block, pose.root_position);
-        for (std::uint32_t lane = 0; lane < kLanes; lane += lane_count<T>)
+        for_each_slice(block, [&](std::uint32_t lane) SWIVEL_INLINE_LAMBDA {
             at(0, lane).set(kRootRow, vector_of(load_values<T, 3>(bodies.lane + lane, 0)));
+        });
     }
     if (pose.root_scale.data) read_numbers(block, pose.root_scale, kRootJoint + kScaleRow);
 }
@@ -114,12 +116,12 @@ SWIVEL_INLINE void take_root_from_support(const BodyBlock& block, const swivel_p
 {
     const bool has_support = pose.support_position.data != nullptr;
     const Bodies supports = has_support ? Bodies(block, pose.support_position) : Bodies();
-    for (std::uint32_t lane = 0; lane < kLanes; lane += lane_count<T>) {
+    for_each_slice(block, [&](std::uint32_t lane) SWIVEL_INLINE_LAMBDA {
         const RowView<T> at = rows_of(block, 0, lane);
         Vector<T> from = at.vector(kRootRow);
         if (has_support) from = from - vector_of(load_values<T, 3>(supports.lane + lane, 0));
         at.set(kRootFromSupportRow, from);
-    }
+    });
 }
 
 // A body's values for plants and shifts.
@@ -132,14 +134,14 @@ SWIVEL_FLATTEN [[gnu::noinline]] void read_time_and_support(const BodyPlan& plan
     else
         take_root_from_support(block, pose);
     const Bodies rotations = pose.support_rotation.data ? Bodies(block, pose.support_rotation) : Bodies();
-    for (std::uint32_t lane = 0; lane < kLanes; lane += lane_count<T>) {
+    for_each_slice(block, [&](std::uint32_t lane) SWIVEL_INLINE_LAMBDA {
         const RowView<T> at = rows_of(block, 0, lane);
         if (pose.support_rotation.data)
             at.set(kSupportRow, unit_rotation(rotor_of(load_values<T, 4>(rotations.lane + lane, 0))));
         at.set(kSpanRow, T(-kAnyShift));
         at.set(kSpanRow + 1, T(kAnyShift));
         at.set(kSpanRow + 2, T(1));
-    }
+    });
 }
 
 // A joint of a pose in the body's space. Its place, where the pose has none, follows from the joint above. As along a
@@ -162,19 +164,16 @@ SWIVEL_FLATTEN [[gnu::noinline]] void read_joints(const BodyPlan& plan, const Bo
     const bool in_body = plan.pose->space == SWIVEL_IN_BODY;
     for (std::uint32_t n = 1; n < plan.joint_count; ++n) {
         const BodyJoint& joint = plan.joints[n];
-        for (std::uint32_t lane = 0; lane < kLanes; lane += lane_count<T>) {
+        for_each_slice(block, [&](std::uint32_t lane) SWIVEL_INLINE_LAMBDA {
             const RowView<T> at = rows_of(block, joint.row, lane);
             const JointFrame<T> given = reader.read(joint, lane, at);
             const JointFrame<T> above = frame_of(rows_of(block, joint.parent, lane));
-            if (!in_body) {
-                set_frame(at, joint_frame(above, given.rotation, given.place, given.scale));
-                continue;
-            }
+            if (!in_body) return set_frame(at, joint_frame(above, given.rotation, given.place, given.scale));
             const JointFrame<T> frame =
                 frame_in_body<Translates>(frame_of(rows_of(block, kRootJoint, lane)), above, given);
             set_frame(at, frame);
             if (joint.is_turned) at.set(kLocalRow, ~above.rotation * frame.rotation);
-        }
+        });
     }
 }
 

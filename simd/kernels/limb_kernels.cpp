@@ -2,6 +2,7 @@
 //
 // The kernels of whole limbs, compiled once for each instruction set: the functions of all stages, and the loop that
 // takes the strips of a run through those of its group.
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -62,10 +63,11 @@ void solve_limbs(const SolveRun& run)
 {
     constexpr std::uint32_t whole_block = (1u << kLanes) - 1;
     const Binding bind = binding_of<kRuntimeFeatures>(run);
-    for (std::size_t limb = 0; limb < run.limb_count;) {
+    const std::size_t end = std::min(run.limb_count, run.first_padding);
+    for (std::size_t limb = 0; limb < end;) {
         Strip strip{run, bind, run.strip.rows};
-        for (; limb < run.limb_count && strip.block_count < run.strip.block_count; limb += kLanes) {
-            const std::size_t left = run.limb_count - limb;
+        for (; limb < end && strip.block_count < run.strip.block_count; limb += kLanes) {
+            const std::size_t left = end - limb;
             const std::uint32_t exist = left < kLanes ? (1u << left) - 1 : whole_block,
                                 lanes = chosen_lanes(run, limb, kLanes) & exist;
             if (lanes != 0) add_block(strip, static_cast<std::uint32_t>(limb / kLanes), lanes);

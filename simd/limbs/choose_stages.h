@@ -224,8 +224,7 @@ SWIVEL_FLATTEN [[gnu::noinline]] void choose(Strip& strip)
         for (int n = 0; n < limits.box_count; ++n) test_limit(room(limits.box[n], wish), list.box_flag[n]);
         if constexpr (InRegion) test_limit(room(load_region(s), wish), SWIVEL_LIMITED_REGION);
         const Mask<T> granted = min_room >= T(kNoRoom);
-        std::uint32_t forbidden = s.good() & lane_bits(!granted);
-        if constexpr (InRegion) forbidden &= s.limbs();  // padding has no limits, but its group's region
+        const std::uint32_t forbidden = s.good() & lane_bits(!granted);
         const std::uint32_t first = s.block * kLanes + s.lane;
         Turned<T> swivel = wish;
         if (forbidden != 0) {

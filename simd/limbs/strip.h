@@ -67,12 +67,6 @@ struct StripSlice {
     // Bits of its lanes.
     SWIVEL_ALWAYS_INLINE std::uint32_t good() const { return strip.good[block] >> lane & kEvery; }
     SWIVEL_ALWAYS_INLINE std::uint32_t chosen() const { return strip.chosen[block] >> lane & kEvery; }
-    // Bits of the lanes that are limbs, and no padding.
-    SWIVEL_ALWAYS_INLINE std::uint32_t limbs() const
-    {
-        const std::size_t first = std::size_t{strip.block[block]} * kLanes + lane, end = strip.run.first_padding;
-        return first + lane_count<T> <= end ? kEvery : first < end ? (1u << (end - first)) - 1 : 0;
-    }
     // The group's rows of some lanes; of the chosen ones; and of those with valid input.
     SWIVEL_ALWAYS_INLINE Rows<T, kRuntimeFeatures> rows_of(std::uint32_t lanes) const
     {
