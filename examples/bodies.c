@@ -17,10 +17,10 @@ static const float offsets[JOINT_COUNT][3] = {{0, 0.9f, 0},  {0.1f, 0, 0},    {0
                                               {0, 0.3f, 0},  {0.2f, 0.2f, 0}, {0.3f, 0, 0},   {0.26f, 0, 0}};
 
 typedef struct body {
-    float root[3];                /* in the world, as are the targets */
+    float root[3];                /* in the world, as the target is; the roots here are not turned */
     float pose[JOINT_COUNT][4];   /* local rotations x, y, z, w, as the animation has them */
     float solved[JOINT_COUNT][4]; /* a copy of pose, solved: draw this one, with shift[0] added to the root's height */
-    float joints[JOINT_COUNT][3]; /* where a solve has left them, from the root */
+    float joints[JOINT_COUNT][3]; /* where a solve has left them, from root and along its axes */
     float shift[3];
     float down[2];   /* 1 while the clip has the left or right foot down, else 0 */
     float target[3]; /* of the hand and of the eyes */

@@ -3,6 +3,7 @@
 // Solves the limb again, in a crowd of its own on the stack (explain_probe.h), and says in words what it meets.
 #include "batch/explain/explain.h"
 
+#include <array>
 #include <cmath>
 
 #include "batch/explain/bad_value.h"
@@ -37,6 +38,16 @@ void explain_lengths(const Probe& probe, swivel_field field, Text& text)
         }
         c = end;
     }
+}
+
+// The numbers of a pose that a body's limb depends on. Joints are numbered as in the skeleton.
+std::array<char, 128> pose_words(const swivel_crowd& crowd, const BodyLimb& limb)
+{
+    std::array<char, 128> words;
+    const auto number = [&](std::uint32_t row) { return crowd.joints[joint_at(crowd, row)].skeleton_joint; };
+    Text(words).add("a rotation, place or scale of joint %u, %u or %u, of one above or of the root",
+                    number(limb.shoulder), number(limb.elbow), number(limb.wrist));
+    return words;
 }
 
 // Names the inputs that are bad on their own.
@@ -79,9 +90,7 @@ void explain_bad_input(Probe& probe, const swivel_crowd& crowd, const Group& gro
     if (is_place_bad || is_pose_bad) text.add("%sin the pose, ", is_found ? "; " : "");
     // Joints' places are from the root's. So what is bad in joints is not in the shoulder's place alone.
     if (is_pose_bad)
-        text.add(
-            "a rotation, place or scale of the limb's joints, of those above or of the root is not a number or out of "
-            "its range");
+        text.add("%s is not a number or out of its range", pose_words(crowd, group.plan.limb).data());
     else if (is_place_bad)
         text.add("the root's place is not a number or further than 1e15");
     else if (!is_found && group.features & SWIVEL_WITH_PLANT)
@@ -90,7 +99,7 @@ void explain_bad_input(Probe& probe, const swivel_crowd& crowd, const Group& gro
                          text);
     else if (!is_found && probe.is_of_body())
         explain_bad_pose(crowd, kWeightOfPose | (notes & kHasWeight && !(notes & kIsUnknown) ? 0u : kJointsOfPose),
-                         "a rotation, place or scale of the limb's joints, of those above or of the root", text);
+                         pose_words(crowd, group.plan.limb).data(), text);
     else if (!is_found)
         text.add("each input is in its range, but not as the parent's rotation and scale have it");
     text.add(". The limb %s.", !group.keeps_pose    ? "has its rest pose"

@@ -126,6 +126,39 @@ TEST_CASE("docs: joints relative to the root")
         CHECK(distance(model.places[kHand], target) < 2e-6);
 }
 
+TEST_CASE("docs: no pole, in bodies")
+{
+    std::vector<Character> characters(1);
+    characters[0].hand_target = {-0.2f, 1.5f, 0.4f};  // forwards from the shoulder
+    const swivel_limb_joints arm_joints = bones.limb(kUpperArm, 1),
+                             leg_joints = bones.limb(kThigh, -1);
+    // [half_line]
+    swivel_body_limb_def arm = swivel::body_limb(arm_joints, SWIVEL_POLE_HALF_LINE);
+    arm.pole_behind[1] = 1;   // above
+    arm.pole_behind[2] = -1;  // and behind
+    swivel_body_limb_def leg = swivel::body_limb(leg_joints, SWIVEL_POLE_HALF_LINE);
+    leg.pole_behind[2] = -1;
+    // [end]
+    const auto solve = [&](Joint upper, Joint lower) {
+        swivel::Crowd crowd(bones.skeleton(), 1, {arm, leg});
+        const swivel_pose pose = pose_of(characters);
+        swivel::Streams arms, legs;
+        arms.in(SWIVEL_TARGET, swivel::stream(characters, &Character::hand_target));
+        legs.in(SWIVEL_TARGET, swivel::stream(characters, &Character::foot_target));
+        crowd.solve({.streams = {arms, legs}, .pose = &pose});
+        const auto at = [&](Joint joint) -> Eigen::Vector3d {
+            return bones.frame(characters[0], joint).translation();
+        };
+        return Eigen::Vector3d(at(lower) - at(upper));
+    };
+    const Eigen::Vector3d elbow = solve(kUpperArm, kForearm);
+    CHECK(elbow.y() == Approx(elbow.x()).margin(1e-5));  // as far down as out
+    CHECK(elbow.y() < -0.1);
+    CHECK(solve(kThigh, kShin).z() > 0.2);  // the knee is in front
+    arm.pole_behind[1] = arm.pole_behind[2] = 0;
+    CHECK(solve(kUpperArm, kForearm).y() == Approx(0).margin(1e-5));
+}
+
 TEST_CASE("docs: what bodies carry is saved, loaded and reset")
 {
     const std::uint32_t body_count = 3;
