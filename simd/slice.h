@@ -87,8 +87,13 @@ struct Rows {
     template <class Value>
     SWIVEL_ALWAYS_INLINE void store(swivel_field field, int component, const Value& value) const
     {
+        store_at(results + std::size_t{row(field, component)} * kLanes, value);
+    }
+    // to: a place among the results.
+    template <class Value>
+    SWIVEL_ALWAYS_INLINE void store_at(float* to, const Value& value) const
+    {
         constexpr LaneBlocks where = blocks_of(kPlan<Features>.result_count);
-        float* const to = results + std::size_t{row(field, component)} * kLanes;
         if (chosen == kEveryLane)
             store_rows(to, value, where);
         else

@@ -208,15 +208,17 @@ SWIVEL_INLINE void advance(AtStage<Stage::commit>, const S& s)
     using T = typename S::T;
     const Rows<T, kRuntimeFeatures> out = s.good_rows(),
                                     cleared = s.rows_of(s.strip.run.keeps_pose ? 0 : s.chosen() & ~s.good());
+    const float* waiting = s.body.at(s.strip.run.plan->limb.goal + kGoalResultsRow);
     for (const swivel_field field : kWaitingResults) {
         const FieldRow& row = row_of(field);
-        if ((s.strip.run.features & row.needs) != row.needs) continue;
-        const std::uint32_t waiting = s.strip.run.plan->limb.goal + waiting_row(field);
-        for (std::uint32_t c = 0; c < row.component_count; ++c) {
-            out.store(field, static_cast<int>(c), s.body.get(waiting + c));
+        const std::size_t size = row.component_count * kLanes;
+        if ((s.strip.run.features & row.needs) == row.needs) {
+            float* const to = out.results + std::size_t{out.row(field, 0)} * kLanes;
+            for (std::size_t at = 0; at < size; at += kLanes) out.store_at(to + at, load_lanes<T>(waiting + at));
             if (cleared.chosen != 0 && row.kind == SWIVEL_FIELD_CARRIED)
-                cleared.store(field, static_cast<int>(c), T(0));
+                for (std::size_t at = 0; at < size; at += kLanes) cleared.store_at(to + at, T(0));
         }
+        waiting += size;
     }
 }
 
