@@ -95,16 +95,17 @@ void ClipCrowd::measure_range(std::size_t limb, std::uint32_t begin, std::uint32
         const PoseName pose{frame_, n, limbs_[limb].name};
         const Vector3d end_point = at.wrist + characters()[n].size * (at.hand * effector);
         const float(&weights)[3] = crowd_.input(limb, n).weights;
+        const double limb_length = length(limb, n);
         const double distance = weights[0] == 0 ? 0
                                 : aims          ? residuals[n - begin]
-                                                : (end_point - target_point(limb, n)).norm() / length(limb, n);
+                                                : (end_point - target_point(limb, n)).norm() / limb_length;
         statistics.add_flags(row.flags, distance, pose);
         if (row.flags & SWIVEL_BAD_INPUT) continue;  // it is counted; its errors mean nothing
         const bool is_reached = (row.flags & SWIVEL_REACHED) != 0;
         if (aims)
-            (is_reached ? statistics.aimed : statistics.aim_missed).add(distance, pose);
+            (is_reached ? statistics.aimed : statistics.aim_missed).add(distance, pose, limb_length);
         else if (weights[0] == 1)
-            (is_reached ? statistics.reached : statistics.missed).add(distance, pose);
+            (is_reached ? statistics.reached : statistics.missed).add(distance, pose, limb_length);
         if (hand && weights[1] == 1 && !aims && !setup.has(kSent))
             statistics.orientation.add(angle(target(limb, n).orientation.conjugate() * at.hand), pose);
         measure_against_clip(limb, pose, at, statistics);
@@ -120,12 +121,12 @@ void ClipCrowd::measure_against_clip(std::size_t limb, const PoseName& pose, con
     const Vector3d elbow = who.size * (motion_.origin(clip_frame(character), limb) + from.elbow);
     Vector3d wanted = Vector3d(who.place) + headed(character, elbow);
     wanted.y() += double{crowd_.rise(character)} - double{crowd_.root(character).shift};
-    const double difference = (at.elbow - wanted).norm() / length(limb, character);
+    const double limb_length = length(limb, character), difference = (at.elbow - wanted).norm() / limb_length;
     if (crowd_.input(limb, character).weights[0] == 0 && crowd_.has_ground()) return;  // it goes along with its body
-    if (!follows_clip(limb, character)) return statistics.given.add(difference, pose);
+    if (!follows_clip(limb, character)) return statistics.given.add(difference, pose, limb_length);
     const Vector3d upper = from.elbow.normalized(), fore = (from.wrist - from.elbow).normalized();
     const bool bent = upper.cross(fore).norm() > kBentSine || upper.dot(fore) < 0;
-    (bent ? statistics.bent : statistics.straight).add(difference, pose);
+    (bent ? statistics.bent : statistics.straight).add(difference, pose, limb_length);
     if (character != 0) return;
 
     const Quaterniond turned = headed(character, from.upper).conjugate() * at.upper;

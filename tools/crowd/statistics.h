@@ -29,30 +29,41 @@ constexpr PoseName kNoPose{std::numeric_limits<std::uint64_t>::max(), 0, {}};  /
 // A NaN is as bad as infinity.
 inline double rank_of(double error) { return std::isnan(error) ? std::numeric_limits<double>::infinity() : error; }
 
+// Errors in limb lengths, each beside its limb's length, or in radians, beside 1.
 struct ErrorStat {
     double max = 0, sum2 = 0;
+    double length_of_max = 1, length_sum2 = 0;  // of that limb; of errors in the unit of lengths
     std::uint64_t count = 0;
     PoseName worst_pose = kNoPose;
 
-    void add(double error, const PoseName& pose)
+    void add(double error, const PoseName& pose, double length = 1)
     {
-        keep_worst(error, pose);
+        keep_worst(error, pose, length);
         sum2 += error * error;
+        length_sum2 += error * error * length * length;
         ++count;
     }
     void add(const ErrorStat& other)
     {
-        keep_worst(other.max, other.worst_pose);
+        keep_worst(other.max, other.worst_pose, other.length_of_max);
         sum2 += other.sum2;
+        length_sum2 += other.length_sum2;
         count += other.count;
     }
-    void keep_worst(double error, const PoseName& pose)
+    void keep_worst(double error, const PoseName& pose, double length)
     {
         if (rank_of(error) < rank_of(max) || (rank_of(error) == rank_of(max) && worst_pose <= pose)) return;
         max = error;
+        length_of_max = length;
         worst_pose = pose;
     }
-    double rms() const { return count ? std::sqrt(sum2 / static_cast<double>(count)) : 0; }
+    double rms() const { return root_of_mean(sum2); }
+    // The same in the unit of lengths.
+    double max_length() const { return max * length_of_max; }
+    double rms_length() const { return root_of_mean(length_sum2); }
+
+private:
+    double root_of_mean(double sum) const { return count ? std::sqrt(sum / static_cast<double>(count)) : 0; }
 };
 
 struct FlagStat {
@@ -148,6 +159,7 @@ struct Statistics {
     std::uint64_t limb_count() const { return arms.limb_count + legs.limb_count; }
     std::uint64_t unreached() const { return arms.unreached + legs.unreached; }
     std::uint64_t bad() const { return arms.bad + legs.bad; }
+    std::uint64_t flagged(std::size_t bit) const { return arms.flags[bit].count + legs.flags[bit].count; }
 };
 
 // Whether most limbs are out of reach or have bad input, which its user hardly intended.

@@ -4,13 +4,15 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numbers>
 
 namespace swivel::tools {
 
-LengthUnit length_unit(bool is_in_metres, double leg_length)
+LengthUnit length_unit(bool is_in_metres, double leg_length, double arm_length)
 {
     if (is_in_metres) return {100, false};
-    return leg_length > 0 ? LengthUnit{86 / leg_length, true} : LengthUnit{};
+    if (leg_length > 0) return {86 / leg_length, true};
+    return arm_length > 0 ? LengthUnit{58 / arm_length, true} : LengthUnit{};
 }
 
 std::string unit_text(const LengthUnit& unit)
@@ -27,9 +29,23 @@ std::string length_text(double length, const LengthUnit& unit)
     return std::abs(cm) < 99.95 ? fmt::format("{:.1f} cm", cm) : fmt::format("{:.2f} m", cm / 100);
 }
 
-std::string share_text(std::size_t count, std::size_t all)
+std::string error_text(double length, const LengthUnit& unit)
 {
-    return fmt::format("{} of {} frames ({:.0f} %)", count, all,
+    const double cm = std::abs(length * unit.centimetres);
+    if (unit.centimetres == 0 || cm >= 0.1) return length_text(length, unit);
+    return cm < 0.01 ? "under 0.01 cm" : fmt::format("{:.2f} cm", cm);
+}
+
+std::string angle_text(double radians)
+{
+    const double degrees = std::abs(radians) * 180 / std::numbers::pi;
+    if (degrees < 0.01) return "under 0.01 degrees";
+    return fmt::format("{:.{}f} degrees", degrees, degrees < 0.1 ? 2 : 1);
+}
+
+std::string share_text(std::size_t count, std::size_t all, std::string_view what)
+{
+    return fmt::format("{} of {} {} ({:.0f} %)", count, all, what,
                        100. * static_cast<double>(count) / static_cast<double>(all));
 }
 

@@ -85,7 +85,7 @@ void run_demo(const DemoOptions& options)
     }
     say(reports, "demo     {} characters, {} arms, {} frames of made-up reaching\n", options.characters,
         2 * options.characters, options.frames);
-    print_statistics(reports, statistics);
+    print_statistics(reports, statistics, length_unit(true, 0));
     if (!options.view.empty() && reports == stdout) say(stdout, "page     {}: open it in a browser\n", options.view);
 }
 

@@ -337,7 +337,7 @@ std::string line_of(const Json& value)
     else if (value.contains("deg"))
         words = fmt::format("{:.3g} degrees", value["deg"].get<double>());
     else if (value.contains("of"))
-        words = share_text(value["frames"].get<std::size_t>(), value["of"].get<std::size_t>()) +
+        words = share_text(value["frames"].get<std::size_t>(), value["of"].get<std::size_t>(), "frames") +
                 (value["frames"] > 0 ? ", from frame " + value["from_frame"].dump() : "");
     else
         for (const auto& [key, each] : value.items())

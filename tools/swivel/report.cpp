@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <bit>
 #include <cctype>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -13,6 +14,7 @@
 #include <vector>
 
 #include "swivel/swivel.h"
+#include "tools/cli/command_error.h"
 #include "tools/cli/streams.h"
 #include "tools/crowd/characters.h"
 #include "tools/crowd/heading.h"
@@ -74,6 +76,8 @@ struct Distance {
     Meaning meaning;
     std::string key, text, unit;
     const ErrorStat& stat;
+
+    bool is_angle() const { return unit == "rad"; }
 };
 void add_distances(std::vector<Distance>& to, const LimbStatistics& s, LimbKind kind)
 {
@@ -103,6 +107,30 @@ std::vector<Distance> distances_of(const Statistics& statistics)
     add_distances(distances, statistics.arms, LimbKind::arm);
     add_distances(distances, statistics.legs, LimbKind::leg);
     return distances;
+}
+
+// "under 0.01 cm", or "2.6 cm rms, 4.4 cm at most in frame 62, character 5498, left_arm"
+std::string text_of(const ErrorStat& stat, bool is_angle, const LengthUnit& unit)
+{
+    const std::string max = is_angle ? angle_text(stat.max) : error_text(stat.max_length(), unit),
+                      rms = is_angle ? angle_text(stat.rms()) : error_text(stat.rms_length(), unit);
+    if (max == rms && max.starts_with("under")) return max;
+    return fmt::format("{} rms, {} at most in {}", rms, max, text_of(stat.worst_pose));
+}
+
+// One line for all limbs: how far elbows and knees are from the clip's.
+void print_differences(std::FILE* to, const Statistics& statistics, const LengthUnit& unit)
+{
+    ErrorStat all;
+    for (const LimbStatistics* limbs : {&statistics.arms, &statistics.legs})
+        for (const ErrorStat* each : {&limbs->given, &limbs->bent, &limbs->straight}) all.add(*each);
+    if (all.count == 0) return;
+    const bool arms = statistics.arms.limb_count > 0, legs = statistics.legs.limb_count > 0;
+    say(to, "differs  {} from the clip's: {}\n",
+        !legs  ? "elbows"
+        : arms ? "elbows and knees"
+               : "knees",
+        text_of(all, false, unit));
 }
 
 // Says what is wrong with the limbs of a run that went_wrong(), and what to check.
@@ -265,25 +293,57 @@ void print_crowd(std::FILE* to, const SolveOptions& options, const CrowdJob& job
         options.crowd.empty() ? "" : fmt::format(", all else from {}", shown_file(options.crowd)));
 }
 
+// A run's verdict, and what is doubted.
+struct Verdict {
+    const char* word;
+    std::string text;
+};
+Verdict verdict_of(const Statistics& statistics)
+{
+    if (went_wrong(statistics)) return {verdict_word(true, true), what_went_wrong(statistics)};
+    const std::string limbs = limbs_solved(statistics);
+    constexpr std::size_t infeasible = std::countr_zero(std::uint32_t{SWIVEL_INFEASIBLE});
+    const std::pair<std::uint64_t, const char*> doubts[] = {
+        {statistics.unreached(), "are out of reach"},
+        {statistics.bad(), "have bad input"},
+        {statistics.flagged(infeasible), "cannot keep all their limits"}};
+    std::string text;
+    for (const auto& [count, words] : doubts)
+        if (count > 0)
+            text += fmt::format("{}{} {}", text.empty() ? "" : ", ", share_text(count, statistics.limb_count(), limbs),
+                                words);
+    return {verdict_word(!text.empty(), false), text};
+}
+
 }  // namespace
 
-void print_statistics(std::FILE* to, const Statistics& statistics)
+void print_statistics(std::FILE* to, const Statistics& statistics, const LengthUnit& unit)
 {
     const std::string limbs = limbs_solved(statistics);
+    const Verdict verdict = verdict_of(statistics);
+    say(to, "verdict  {}{}{}\n", verdict.word, verdict.text.empty() ? "" : ": ", verdict.text);
     say(to, "solved   {} {}, {:.1f} million {}/s ({}, {})\n", statistics.limb_count(), limbs,
         limbs_per_second(statistics) / 1e6, limbs, swivel_isa_name(), counted(thread_count(), "thread"));
     for (const Distance& d : distances_of(statistics))
-        say(to, "{:<8} {:<32} worst {:.2e}  rms {:.2e}  {}; worst in {}\n", d.meaning.line, d.text, d.stat.max,
-            d.stat.rms(), d.unit, text_of(d.stat.worst_pose));
+        if (d.meaning.line != kDiffers.line)
+            say(to, "{:<8} {}: {}\n", d.meaning.line, d.text, text_of(d.stat, d.is_angle(), unit));
+    print_differences(to, statistics, unit);
     for (const auto& [name, stat] : flags_of(statistics))
-        if (stat.count > 0) say(to, "flag     {} {}, first in {}\n", name, stat.count, text_of(stat.first_pose));
+        if (stat.count > 0)
+            say(to, "flag     {}: {}, first in {}\n", name, share_text(stat.count, statistics.limb_count(), limbs),
+                text_of(stat.first_pose));
     if (const LookStatistics& looks = statistics.looks; looks.count > 0)
         say(to,
             "looks    {} of {} meet their target, {} turn no further, {} have it behind them or too near, {} are on "
             "their way\n",
             looks.met, looks.count, looks.limited, looks.faded, looks.on_their_way());
+}
+
+void require_went_well(const Statistics& statistics, const std::string& file)
+{
     if (went_wrong(statistics))
-        say(to, "note     most {} are not where they should be: {}\n", limbs, what_went_wrong(statistics));
+        throw CommandError(1, fmt::format("{}: most {} are not where they should be: {}", shown_file(file),
+                                          limbs_solved(statistics), what_went_wrong(statistics)));
 }
 
 Json json_of(const Statistics& statistics)
@@ -311,6 +371,9 @@ Json json_of(const Statistics& statistics)
     out["out_of_reach"] = statistics.unreached();
     out["bad_input"] = statistics.bad();
     out["went_wrong"] = went_wrong(statistics);
+    const Verdict verdict = verdict_of(statistics);
+    out["verdict"] = verdict.word;
+    if (!verdict.text.empty()) out["doubts"] = {verdict.text};
     return out;
 }
 

@@ -13,16 +13,18 @@
 
 #include "tools/crowd/statistics.h"
 #include "tools/formats/clip.h"
+#include "tools/rig/plain_units.h"
 #include "tools/swivel/crowd_job.h"
 
 namespace swivel::tools {
 
 using Json = nlohmann::ordered_json;
 
-// Throughput, instruction set, threads, errors, differences from the clip, flags, and a note where went_wrong(), on
-// stdout or stderr.
-void print_statistics(std::FILE* to, const Statistics& statistics);
+// A run's verdict, throughput, errors, differences from the clip and flags, on stdout or stderr. unit: of the clip.
+void print_statistics(std::FILE* to, const Statistics& statistics, const LengthUnit& unit);
 Json json_of(const Statistics& statistics);
+// Throws CommandError if the run of a file went_wrong(), with what is wrong and what to check.
+void require_went_well(const Statistics& statistics, const std::string& file);
 
 // Seconds from frame to frame; null where frames are uneven.
 Json frame_time_of(const formats::Clip& clip);

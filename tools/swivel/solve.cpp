@@ -126,9 +126,19 @@ Statistics solve_clip(const SolveOptions& options, const MotionFile& file, Crowd
     return statistics;
 }
 
-void print_report(std::FILE* to, const SolveOptions& options, const Statistics& statistics, double seconds)
+// The unit of a clip's lengths, by the limbs that are solved.
+LengthUnit unit_of(const MotionFile& file, const CrowdJob& job)
 {
-    print_statistics(to, statistics);
+    double length[2] = {};
+    for (const Limb& limb : job.limbs)
+        length[limb.name.kind == formats::LimbKind::leg] = limb.bound.lengths[0] + limb.bound.lengths[1];
+    return length_unit(file.is_in_metres(), length[1], length[0]);
+}
+
+void print_report(std::FILE* to, const SolveOptions& options, const Statistics& statistics, const LengthUnit& unit,
+                  double seconds)
+{
+    print_statistics(to, statistics, unit);
     say(to, "time     {:.2f} s in all, {:.3f} s of it solving\n", seconds, statistics.solve_seconds);
     print_written(to, {options.out, options.export_targets, options.view});
 }
@@ -180,7 +190,8 @@ void run_solve(const SolveOptions& options)
     if (options.json)
         print_json(json_of_run(options, file, job, statistics, seconds), reports);
     else if (!options.quiet)
-        print_report(reports, options, statistics, seconds);
+        print_report(reports, options, statistics, unit_of(file, job), seconds);
+    require_went_well(statistics, options.file);
 }
 
 void run_view(SolveOptions options, const std::string& about_clip)
