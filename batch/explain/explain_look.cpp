@@ -5,6 +5,7 @@
 #include "batch/explain/explain.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -64,10 +65,12 @@ struct LookOfBody {
     }
     void explain_bad(Text& text) const
     {
+        std::array<char, 128> words;  // the chain is the last joint and joints above it
+        Text(words).add("a rotation, place or scale of joint %u, of one above or of the root", last_joint());
         text.add("Bad input: ");
         if (!explain_bad_in_body(group, limb, text))
-            explain_bad_pose(crowd, (rules.rate > 0 ? kTimeOfPose : 0u) | kWeightOfPose | kJointsOfPose,
-                             "a rotation, place or scale of the chain or the root", text);
+            explain_bad_pose(crowd, (rules.rate > 0 ? kTimeOfPose : 0u) | kWeightOfPose | kJointsOfPose, words.data(),
+                             text);
         text.add(". The chain keeps its incoming pose.");
     }
     void explain_nothing(Text& text) const

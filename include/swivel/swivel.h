@@ -78,7 +78,7 @@ typedef enum swivel_flag {
     SWIVEL_LIMITED_STEP = 1u << 14,    // SWIVEL_MAX_SWIVEL forbids the swivel that was wished for
     SWIVEL_INFEASIBLE = 1u << 15,      // no swivel keeps all limits; this one violates them least
     SWIVEL_JUMPED = 1u << 16,          // joint limits turned the swivel further than SWIVEL_MAX_SWIVEL
-    SWIVEL_PLANTED = 1u << 17,         // the point is locked to its support
+    SWIVEL_PLANTED = 1u << 17,         // the point is locked, though stop_time may still run
     SWIVEL_RELEASED = 1u << 18,        // this solve released it
     SWIVEL_BROKE_AWAY = 1u << 19,      // released by distance
     SWIVEL_CUT = 1u << 20,             // too fast to be eased, so the point jumps
@@ -360,7 +360,7 @@ typedef struct swivel_limb_def {
     swivel_binding binding;                          // JOINTS: every limb uses it, and starts with its lengths
     const struct swivel_region* region;              // WITH_REGION; copied. Null without the feature
     // POLE_HALF_LINE: where no wrist goes, in the frame of the shoulder's parent, else in the arm frame; of any length.
-    // Zeros: where the elbow points at rest. That is behind the back for an arm; for a leg give it.
+    // Zeros: where the elbow points at rest. Better: above and behind for arms, behind for legs.
     float pole_behind[3];
 } swivel_limb_def;
 

@@ -204,7 +204,7 @@ typedef struct swivel_pose {
     uint32_t reserved;  // 0
     // SWIVEL_IN_BODY with translations and results: where those of moved joints go; none: back to translations.
     swivel_joint_values translation_results;
-    // If given, where the joints that limbs and looks need are after the solve, in the root's frame.
+    // Where joints that limbs and looks need are after the solve, in the root's frame; others are not written.
     swivel_joint_values joint_rotations, joint_positions;
     // Seconds since each body's last solve, 1 float. Groups WITH_PLANT, shifts, and looks with a rate need it.
     swivel_in time;

@@ -367,7 +367,7 @@ onPage('a leg has a leg\'s words',
 
 test('bad input is a dash, and its target is shown as it was given', async () => {
   const csv = file('bad.csv', 'frame,character,limb,x,y,z\n0,0,left_arm,1e30,0,0\n0,0,right_arm,1,0,-2\n');
-  await visit(write('bad.html', 'view', clip, '--frames', '1', '--targets', csv), async (page) => {
+  await visit(write('bad.html', 'view', clip, '--limbs', 'all', '--frames', '1', '--targets', csv), async (page) => {
     const fact = (name) => page.evaluate((which) => [...document.querySelectorAll('aside dt')].find((each) => each.textContent === which).nextSibling.textContent, name);
     assert.equal(await fact('Off by'), '–');
     assert.match(await fact('Target'), /^1e\+30, 0\.0+, 0\.0+$/);

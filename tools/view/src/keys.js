@@ -38,7 +38,8 @@ export function makeHelp(keys) {
     const mouse = [["Drag", "turn the camera"], ["Right drag, two fingers", "move it"], ["Wheel, pinch", "nearer or farther"],
         ["Click, tap", "choose a limb"], ["Drag a ball", "move target, pole, hips, ground or the rim of a limit"]];
     const rows = [...mouse, ...keys.map(({ label, text }) => [label, text])];
-    const dialog = element("dialog", { class: "help", "aria-label": "Help" }, element("h2", {}, "Help"),
+    const dialog = element("dialog", { class: "help", "aria-label": "Help" }, element("h2", {}, "How it works"),
+        element("p", {}, "An animation gives the poses. In each frame swivel, the library, moves arms, legs and heads to their goals: feet stand on the ground, hands hold, eyes look. Here it runs as WebAssembly, and gives the same bits as everywhere."),
         element("dl", {}, ...rows.flatMap(([label, text]) => [element("dt", {}, label), element("dd", {}, text)])),
         button("Close", () => dialog.close()));
     return dialog;

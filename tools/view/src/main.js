@@ -28,6 +28,7 @@ import { MAX_SKINS } from "./skins.js";
 import { makeStatus } from "./status.js";
 import { Undo } from "./undo.js";
 import { isWhole } from "./whole.js";
+import { kindOf } from "./words.js";
 import css from "./style.css";
 
 const DRAWN = 1000;  // characters at most, unless asked for more
@@ -41,6 +42,8 @@ function lack() {
     const simd = [0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 10, 1, 8, 0, 65, 0, 253, 15, 253, 98, 11];
     return WebAssembly.validate(new Uint8Array(simd)) ? "" : "WebAssembly with SIMD";
 }
+
+const isPhone = () => matchMedia("(max-width: 760px)").matches;
 
 function refuse(text) {
     document.body.replaceChildren(element("p", { class: "refusal", role: "alert" }, text));
@@ -108,6 +111,7 @@ class Page {
         this.selection = selection;
         if (selection) this.chosen = selection.character;
         if (selection && this.view.followed !== null) this.view.follow(selection.character);
+        if (selection && !isPhone()) this.openPanel();
         this.view.bodies.choose(selection?.limb, selection?.character);
         this.show();
         this.tell("select");
@@ -166,7 +170,12 @@ class Page {
         this.redraw();
     }
     toggleTheme() { this.setTheme(this.theme === "dark" ? "light" : "dark"); }
+    /** Opens the panel, unless somebody has closed it. */
+    openPanel() {
+        if (!this.hasPanel) this.togglePanel();
+    }
     togglePanel() {
+        this.hasPanel = true;
         const was = this.view.farther();
         document.body.classList.toggle("wide");
         this.resize();
@@ -185,12 +194,21 @@ class Page {
     readback(limb, count) { return readback(this.view, limb, count); }
 }
 
+/** What the page is, and what one does in it, in two sentences. */
+function about({ stage, view }) {
+    const kinds = [...new Set(stage.limbs.map(kindOf))].map((kind) => `${kind}s`).join(" and ");
+    const leads = view.bodies.skins?.poses.heads && !stage.look && matchMedia("(hover: hover)").matches;
+    return `${stage.characterCount.toLocaleString("en")} characters, whose ${kinds} this page solves as you watch. ` +
+        `${isPhone() ? "Tap" : "Click"} a limb, and drag its target.${leads ? " Heads follow your pointer." : ""} `;
+}
+
 function build(page, data) {
-    const { stage } = page, keys = keysOf(page), title = element("h1", {}, data.title), clip = element("p", { class: "clip" }, data.clip);
+    const { stage } = page, keys = keysOf(page), title = element("h1", {}, data.title);
     page.help = makeHelp(keys);
-    const head = element("header", {}, element("div", {}, title, clip, makeStatus(page)), element("nav", {},
-        button("Light or dark", () => page.toggleTheme()), button("Help", () => page.help.showModal()),
-        button("Panel", () => page.togglePanel(), { class: "panel-button" })));
+    const showHelp = () => page.help.showModal();
+    const head = element("header", {}, element("p", { class: "name" }, "swivel"), title,
+        element("p", { class: "about" }, about(page), button("How it works", showHelp, { class: "link" })), makeStatus(page));
+    const nav = element("nav", {}, button("Light or dark", () => page.toggleTheme()), button("Help", showHelp), button("Panel", () => page.togglePanel()));
     const drawn = slider("Drawn", { min: 1, max: page.maxDrawn, step: 1, value: page.drawnCount }, (count) => {
         page.drawFirst(count);
         page.home();
@@ -198,14 +216,14 @@ function build(page, data) {
     page.on("frame", () => drawn.set(page.drawnCount));
     const bar = element("footer", {});
     page.player = new Player(page, bar);
-    document.body.classList.toggle("wide", matchMedia("(max-width: 760px)").matches);  // a phone shows the crowd first
+    document.body.classList.add("wide");  // the crowd is seen first
     const inspector = makeInspector(page), legend = makeLegend(page), controls = makeControls(page);
     page.overlays = makeOverlays(page);
     page.lesson = makeLesson(page);
     const figures = element("p", { class: "hint" }, `Of ${stage.characterCount.toLocaleString("en")} characters. All are solved, drawn or not.`);
     const panel = element("aside", { "aria-label": "Panel" }, inspector, legend, controls, page.overlays.box, page.lesson.box,
         section("Characters", false, drawn, figures));
-    document.body.append(head, panel, bar, page.help);
+    document.body.append(head, nav, panel, bar, page.help);
     listen(keys);
 }
 

@@ -5,6 +5,7 @@ uniform highp sampler2D uPoses;
 uniform int uBoneCount, uFirstBone;
 uniform int uChosen, uChosenLimb;
 out float vChosen;
+out vec3 vTint;  // of its character, so that a crowd is not of one colour
 out vec2 vAt;
 
 mat4x3 boneOf(int bone) {
@@ -17,6 +18,7 @@ void main() {
     for (int n = 0; n < 4; ++n)
         if (skinWeight[n] > 0.0) pose += skinWeight[n] * boneOf(uFirstBone + int(skinIndex[n]));
     floorAt = risesOf(character).y;
+    vTint = mix(vec3(0.80, 0.93, 1.12), vec3(1.22, 1.0, 0.72), fract(0.618034 * float(character)));
     vChosen = character == uChosen && int(limb) == uChosenLimb ? 1.0 : 0.0;
 #ifdef MAP
     vAt = uv;

@@ -30,7 +30,7 @@ export function speedText(limbCount, all) {
 
 export function makeStatus(page) {
     const { stage } = page, speed = element("p", { class: "speed", "aria-live": "off" }), words = element("summary"), numbers = element("p");
-    const digest = element("details", { class: "digest" }, words, numbers), all = [];
+    const digest = element("details", { class: "digest" }, words, element("p", { class: "clip" }, stage.data.clip), speed, numbers), all = [];
     digest.addEventListener("toggle", () => page.resize());
     page.on("frame", () => {
         if (all.push(stage.seconds) > MAX_SOLVES + 1) all.splice(1, 1);
@@ -42,5 +42,5 @@ export function makeStatus(page) {
     });
     const notice = element("p", { class: "notice", role: "status" });
     page.on("say", (text) => { notice.textContent = text; });
-    return element("div", { class: "status" }, speed, digest, notice);
+    return element("div", { class: "status" }, digest, notice);
 }
