@@ -2,7 +2,6 @@
 //
 // The kernels of whole limbs, compiled once for each instruction set: the functions of all stages, and the loop that
 // takes the strips of a run through those of its group.
-#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -63,7 +62,7 @@ void solve_limbs(const SolveRun& run)
 {
     constexpr std::uint32_t whole_block = (1u << kLanes) - 1;
     const Binding bind = binding_of<kRuntimeFeatures>(run);
-    const std::size_t end = std::min(run.limb_count, run.first_padding);
+    const std::size_t end = run.limb_count < run.first_padding ? run.limb_count : run.first_padding;
     for (std::size_t limb = 0; limb < end;) {
         Strip strip{run, bind, run.strip.rows};
         for (; limb < end && strip.block_count < run.strip.block_count; limb += kLanes) {

@@ -41,7 +41,7 @@ export async function visit(file, use, { before, hash = '', isFresh = false, spo
   let isGood = false;
   try {
     await show(tab, file, { hash, media: { reducedMotion, colorScheme }, isFresh, before });
-    await tab.page.evaluate(() => innerWidth > 760 && window.swivelPage?.openPanel?.());
+    await tab.page.evaluate(() => innerWidth > 760 && document.body.classList.contains('wide') && window.swivelPage?.togglePanel?.());
     await use(tab.page);
     assert.deepEqual(tab.faults, []);
     isGood = !spoils;
