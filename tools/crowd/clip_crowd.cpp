@@ -156,6 +156,7 @@ void ClipCrowd::solve(Statistics& statistics)
 formats::PoseRow ClipCrowd::pose(std::size_t limb, std::uint32_t character) const
 {
     formats::PoseRow row = solved_pose(limb, character);
+    crowd_.read(limb, SWIVEL_FLAGS, character, 1, {&row.flags, sizeof row.flags});
     const LimbInClip& from = in_clip(limb, character);
     const LimbChain& chain = limbs_[limb].chain;
     const auto is_none = [](const Quaterniond& q) { return q.vec().isZero(0); };
@@ -190,7 +191,6 @@ formats::PoseRow ClipCrowd::solved_pose(std::size_t limb, std::uint32_t characte
         row.wrist = crowd_.rotation(limb, character, 3);
     else
         put(limbs_[limb].as_solved(in_clip(limb, character).local_wrist()).coeffs(), row.wrist);
-    crowd_.read(limb, SWIVEL_FLAGS, character, 1, {&row.flags, sizeof row.flags});
     return row;
 }
 

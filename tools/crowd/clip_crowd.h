@@ -71,7 +71,7 @@ private:
     Eigen::Vector3d headed(std::uint32_t character, Eigen::Vector3d v) const;
     Eigen::Quaterniond headed(std::uint32_t character, const Eigen::Quaterniond& q) const;
     bool follows_clip(std::size_t limb, std::uint32_t character) const;
-    // The rotations of the solver's two bones.
+    // The rotations of the solver's two bones, without flags.
     formats::PoseRow solved_pose(std::size_t limb, std::uint32_t character) const;
     formats::Target target(std::size_t limb, std::uint32_t character) const;
     const formats::Target* given(std::size_t limb, std::uint32_t character) const;  // in this frame; null: none
@@ -87,7 +87,7 @@ private:
         Eigen::Vector3d elbow, wrist;
         Eigen::Quaterniond upper, fore, hand;
     };
-    Reached reached(std::size_t limb, const formats::PoseRow& row) const;
+    Reached reached(std::size_t limb, const formats::PoseRow& row, double stretch) const;
     Eigen::Vector3d offset(std::size_t limb, std::uint32_t character) const;  // of a given target
     Eigen::Vector3d target_point(std::size_t limb, std::uint32_t character) const;
     void measure_against_clip(std::size_t limb, const PoseName& pose, const Reached& at,

@@ -50,12 +50,9 @@ void ClipCrowd::measure(Statistics& statistics) const
         if (crowd_.solved(n)) statistics.looks.add_flags(flags[n]);
 }
 
-ClipCrowd::Reached ClipCrowd::reached(std::size_t limb, const formats::PoseRow& row) const
+ClipCrowd::Reached ClipCrowd::reached(std::size_t limb, const formats::PoseRow& row, double stretch) const
 {
     const goal_input& input = crowd_.input(limb, row.character);
-    float stretch = 1;
-    if (crowd_.has(limb, SWIVEL_STRETCH))
-        crowd_.read(limb, SWIVEL_STRETCH, row.character, 1, {&stretch, sizeof stretch});
     const double size = characters()[row.character].size, bone = size * stretch;
     const auto place = [&](std::size_t joint) { return Vector3d(Eigen::Vector3f(input.places[joint]).cast<double>()); };
     const auto as_solved = [&](const std::array<float, 4>& q) { return limbs_[limb].as_solved(quaternion(q)); };
@@ -86,12 +83,18 @@ void ClipCrowd::measure_range(std::size_t limb, std::uint32_t begin, std::uint32
     const bool hand = setup.has(SWIVEL_WITH_HAND), aims = setup.has(SWIVEL_WITH_AIM);
     const Vector3d effector(setup.goals.effector);
     statistics.has_effector = !effector.isZero(0);
-    std::vector<double> residuals(end - begin);
-    if (aims) crowd_.residuals(limb, begin, end - begin, {residuals.data(), sizeof residuals[0]});
+    const std::uint32_t count = end - begin;
+    std::vector<double> residuals(count);
+    if (aims) crowd_.residuals(limb, begin, count, {residuals.data(), sizeof residuals[0]});
+    std::vector<std::uint32_t> flags(count);
+    crowd_.read(limb, SWIVEL_FLAGS, begin, count, {flags.data(), sizeof flags[0]});
+    std::vector<float> stretches(count, 1.0f);
+    if (crowd_.has(limb, SWIVEL_STRETCH))
+        crowd_.read(limb, SWIVEL_STRETCH, begin, count, {stretches.data(), sizeof stretches[0]});
     for (std::uint32_t n = begin; n < end; ++n) {
         if (!crowd_.solved(n)) continue;
-        const formats::PoseRow row = solved_pose(limb, n);
-        const Reached at = reached(limb, row);
+        const Reached at = reached(limb, solved_pose(limb, n), double{stretches[n - begin]});
+        const std::uint32_t word = flags[n - begin];
         const PoseName pose{frame_, n, limbs_[limb].name};
         const Vector3d end_point = at.wrist + characters()[n].size * (at.hand * effector);
         const float(&weights)[3] = crowd_.input(limb, n).weights;
@@ -99,9 +102,9 @@ void ClipCrowd::measure_range(std::size_t limb, std::uint32_t begin, std::uint32
         const double distance = weights[0] == 0 ? 0
                                 : aims          ? residuals[n - begin]
                                                 : (end_point - target_point(limb, n)).norm() / limb_length;
-        statistics.add_flags(row.flags, distance, pose);
-        if (row.flags & SWIVEL_BAD_INPUT) continue;  // it is counted; its errors mean nothing
-        const bool is_reached = (row.flags & SWIVEL_REACHED) != 0;
+        statistics.add_flags(word, distance, pose);
+        if (word & SWIVEL_BAD_INPUT) continue;  // it is counted; its errors mean nothing
+        const bool is_reached = (word & SWIVEL_REACHED) != 0;
         if (aims)
             (is_reached ? statistics.aimed : statistics.aim_missed).add(distance, pose, limb_length);
         else if (weights[0] == 1)
